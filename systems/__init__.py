@@ -1,0 +1,1 @@
+"""The algorithms of footfall, one Drake system a file."""

@@ -1,0 +1,1 @@
+"""Balance: contact wrench cones, static stability, ZMP preview, stabilisation."""

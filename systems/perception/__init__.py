@@ -1,0 +1,1 @@
+"""Perception: from scans to planes, staircases and boxes. Knows no robot."""

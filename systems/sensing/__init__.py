@@ -1,0 +1,1 @@
+"""Sensors: what the robot measures of itself and of the scene."""

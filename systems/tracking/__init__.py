@@ -1,0 +1,1 @@
+"""Tracking: whole-body inverse kinematics and the joint references it yields."""

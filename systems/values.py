@@ -1,0 +1,178 @@
+"""What travels on abstract ports: frozen, comparable, each with a JSON form.
+
+World frame W: z up. A foot's sole frame F: origin on the sole under the ankle, x to
+the toes, z up out of the ground.
+"""
+
+import dataclasses
+from dataclasses import dataclass, field
+from typing import Literal, TypeAlias, cast
+
+import numpy as np
+from numpy.typing import NDArray
+from pydrake.common.eigen_geometry import Quaternion
+from pydrake.math import RigidTransform
+
+Vector = NDArray[np.float64]
+Foot: TypeAlias = Literal["left", "right"]
+FEET: tuple[Foot, Foot] = ("left", "right")
+Json: TypeAlias = "bool | int | float | str | list[Json] | dict[str, Json] | None"
+
+
+def other_foot(foot: Foot) -> Foot:
+    """The foot on the other side."""
+    return "right" if foot == "left" else "left"
+
+
+def to_json(value: object) -> Json:
+    """A value of this module (or a part of one) as plain JSON data.
+
+    Arrays become nested lists (non-finite numbers become null), poses become
+    {"translation": [x, y, z], "quaternion": [w, x, y, z]}, dataclasses become
+    objects keyed by field name.
+
+    Raises:
+        TypeError: the value has no JSON form.
+    """
+    if value is None or isinstance(value, bool | int | str):
+        return value
+    if isinstance(value, float | np.floating):
+        return float(value) if np.isfinite(value) else None
+    if isinstance(value, np.integer):
+        return int(value)
+    if isinstance(value, np.ndarray):
+        return [to_json(item) for item in value]
+    if isinstance(value, list | tuple):
+        return [to_json(item) for item in value]
+    if isinstance(value, dict):
+        return {str(key): to_json(item) for key, item in value.items()}
+    if isinstance(value, RigidTransform):
+        return {
+            "translation": to_json(value.translation()),
+            "quaternion": to_json(value.rotation().ToQuaternion().wxyz()),
+        }
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        return {
+            item.name: to_json(getattr(value, item.name))
+            for item in dataclasses.fields(value)
+        }
+    raise TypeError(f"{type(value).__name__} has no JSON form")
+
+
+def pose_from_json(data: Json) -> RigidTransform:
+    """The pose that `to_json` wrote."""
+    parts = cast(dict[str, list[float]], data)
+    return RigidTransform(
+        Quaternion(np.array(parts["quaternion"], dtype=np.float64)),
+        np.array(parts["translation"], dtype=np.float64),
+    )
+
+
+class Value:
+    """Base of the frozen dataclasses below: compares field by field, arrays too."""
+
+    def __eq__(self, other: object) -> bool:
+        return type(self) is type(other) and all(
+            _equal(getattr(self, item.name), getattr(other, item.name))
+            for item in dataclasses.fields(self)  # type: ignore[arg-type]
+        )
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def to_json(self) -> Json:
+        """This value as plain JSON data."""
+        return to_json(self)
+
+
+def _equal(a: object, b: object) -> bool:
+    if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
+        return a.shape == b.shape and bool(np.array_equal(a, b, equal_nan=True))
+    if isinstance(a, RigidTransform) and isinstance(b, RigidTransform):
+        return a.IsExactlyEqualTo(b)
+    if isinstance(a, tuple) and isinstance(b, tuple):
+        return len(a) == len(b) and all(map(_equal, a, b))
+    return bool(a == b)
+
+
+@dataclass(frozen=True, eq=False)
+class LaserScan(Value):
+    """One line of a scanner on a tilt servo."""
+
+    time: float
+    """When the line was taken, s."""
+    tilt: float
+    """Angle of the tilt servo, rad; positive looks down."""
+    ranges: Vector
+    """Measured ranges, (n,), m, in the order of the beams; inf where nothing was
+    hit, nan where the return was below the least range."""
+
+
+@dataclass(frozen=True, eq=False)
+class PlaneSegment(Value):
+    """A bounded patch of plane that was seen."""
+
+    polygon: Vector
+    """Convex outline of the supporting points, (n, 3), m, counter-clockwise seen from
+    the side its normal points to."""
+    X_WR: RigidTransform
+    """Pose of the oriented rectangle R: origin at its centre, z along the normal, x
+    along the side named first in `size`."""
+    size: Vector
+    """Side lengths of the rectangle along R's x and y, (2,), m."""
+    normal: Vector
+    """Unit normal, (3,), pointing up."""
+    area: float
+    """Area of the supporting voxels, m^2."""
+    support_count: int
+    """How many points support the plane."""
+
+    def corners(self) -> Vector:
+        """The rectangle's corners in W, (4, 3), m, counter-clockwise from above."""
+        half = self.size / 2.0
+        signs = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+        p_R = np.hstack([signs * half, np.zeros((4, 1))])
+        return np.array(self.X_WR.multiply(p_R.T)).T
+
+
+@dataclass(frozen=True, eq=False)
+class Staircase(Value):
+    """The treads that were found, lowest first, with the ground in front of them."""
+
+    treads: tuple[PlaneSegment, ...] = ()
+    """Treads from the lowest to the highest; R's x points up the stairs, so `size` is
+    (depth, width)."""
+    floor: PlaneSegment | None = None
+    """The horizontal plane that the staircase rises from, where it was seen."""
+
+
+@dataclass(frozen=True, eq=False)
+class Footstep(Value):
+    """Where a foot is to stand."""
+
+    foot: Foot
+    X_WF: RigidTransform
+    """Pose of the sole frame F."""
+    plane: int
+    """Index of the tread in the Staircase it was planned on, -1 for the floor."""
+
+
+@dataclass(frozen=True, eq=False)
+class FootstepPlan(Value):
+    """A sequence of footsteps, or why there is none."""
+
+    footsteps: tuple[Footstep, ...] = ()
+    status: Literal["planned", "infeasible", "finished"] = "finished"
+    reason: str = ""
+    """Why it is infeasible, in one line; empty otherwise."""
+
+
+@dataclass(frozen=True, eq=False)
+class StancePolygon(Value):
+    """Where the CoM may be for the robot to stand still on its present contacts."""
+
+    vertices: Vector = field(default_factory=lambda: np.zeros((0, 2)))
+    """Counter-clockwise vertices (x, y) in W, (n, 2), m; empty where none exists."""
+    status: str = "empty"
+    """"ok", or why there is no polygon."""
+    margin: float = float("nan")
+    """Signed distance of the CoM to the nearest edge, m, positive inside."""
