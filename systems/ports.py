@@ -1,12 +1,14 @@
 """Typed access to ports: the one place that knows pydrake's untyped edges."""
 
-from typing import TypeVar
+from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 from pydrake.systems.framework import BasicVector, Context, InputPort, OutputPort
 
-Vector = NDArray[np.float64]
+Vector: TypeAlias = np.ndarray[Any, np.dtype[np.float64]]
+"""An array of floats of any shape. The shape parameter is open because pydrake's stubs
+put the element type there, so that an NDArray would never match them."""
+
 T = TypeVar("T")
 
 

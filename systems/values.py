@@ -9,11 +9,11 @@ from dataclasses import dataclass, field
 from typing import Literal, TypeAlias, cast
 
 import numpy as np
-from numpy.typing import NDArray
 from pydrake.common.eigen_geometry import Quaternion
 from pydrake.math import RigidTransform
 
-Vector = NDArray[np.float64]
+from systems.ports import Vector
+
 Foot: TypeAlias = Literal["left", "right"]
 FEET: tuple[Foot, Foot] = ("left", "right")
 Json: TypeAlias = "bool | int | float | str | list[Json] | dict[str, Json] | None"
@@ -62,10 +62,9 @@ def to_json(value: object) -> Json:
 def pose_from_json(data: Json) -> RigidTransform:
     """The pose that `to_json` wrote."""
     parts = cast(dict[str, list[float]], data)
-    return RigidTransform(
-        Quaternion(np.array(parts["quaternion"], dtype=np.float64)),
-        np.array(parts["translation"], dtype=np.float64),
-    )
+    wxyz: Vector = np.array(parts["quaternion"], dtype=np.float64)
+    p: Vector = np.array(parts["translation"], dtype=np.float64)
+    return RigidTransform(Quaternion(wxyz), p)
 
 
 class Value:
