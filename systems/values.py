@@ -6,7 +6,7 @@ the toes, z up out of the ground.
 
 import dataclasses
 from dataclasses import dataclass, field
-from typing import Literal, TypeAlias, cast
+from typing import Literal, Self, TypeAlias, cast
 
 import numpy as np
 from pydrake.common.eigen_geometry import Quaternion
@@ -77,6 +77,10 @@ class Value:
         )
 
     __hash__ = None  # type: ignore[assignment]
+
+    def __deepcopy__(self, memo: dict[int, object]) -> Self:
+        """This value itself: it is immutable, and Drake clones state at every event."""
+        return self
 
     def to_json(self) -> Json:
         """This value as plain JSON data."""
@@ -163,6 +167,29 @@ class FootstepPlan(Value):
     status: Literal["planned", "infeasible", "finished"] = "finished"
     reason: str = ""
     """Why it is infeasible, in one line; empty otherwise."""
+
+
+@dataclass(frozen=True, eq=False)
+class PlaneSegmentation(Value):
+    """What one cloud says about horizontal planes."""
+
+    planes: tuple[PlaneSegment, ...] = ()
+    """Every horizontal plane segment large enough for a foot, largest first."""
+    staircase: Staircase = field(default_factory=Staircase)
+    """The cluster of planes of like size that makes up the staircase."""
+    times_ms: tuple[tuple[str, float], ...] = ()
+    """Wall time of each stage, (stage, ms), in order."""
+
+
+@dataclass(frozen=True, eq=False)
+class TaskStatus(Value):
+    """How the task is going, as the executive sees it."""
+
+    state: Literal["running", "finished", "infeasible"] = "running"
+    activity: str = ""
+    """What it is doing now: "scan", "plan", "move", "stand"."""
+    reason: str = ""
+    """Why it stopped, in one line."""
 
 
 @dataclass(frozen=True, eq=False)
