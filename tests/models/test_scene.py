@@ -1,0 +1,44 @@
+"""A scene gathers its parts, each solid under a name of its own."""
+
+import pytest
+
+from models.obstacle import BoxParams
+from models.scene import SceneParams
+from models.staircase import StaircaseParams
+
+
+def test_scene_gathers_room_stairs_and_boxes() -> None:
+    scene = SceneParams(
+        staircase=StaircaseParams(steps=2),
+        boxes=[BoxParams(name="bar", x=1.0, z=0.1, size=[0.05, 1.0, 0.15])],
+    )
+    names = [solid.name for solid in scene.solids()]
+    assert names[0] == "room/floor"
+    assert names[-3:] == ["staircase/step_1", "staircase/step_2", "box/bar"]
+    assert len(set(names)) == len(names) == 9
+    bar = scene.solids()[-1]
+    assert bar.X_WB.translation() == pytest.approx([1.0, 0.0, 0.175])
+    assert [tread.name for tread in scene.treads()] == names[-3:-1]
+
+
+def test_scene_without_stairs_has_no_treads() -> None:
+    assert SceneParams().treads() == ()
+
+
+def test_equal_names_are_refused() -> None:
+    scene = SceneParams(boxes=[BoxParams(name="a"), BoxParams(name="a")])
+    with pytest.raises(ValueError, match=r"boxes\[1\].name: must be unique, got 'a'"):
+        scene.solids()
+
+
+@pytest.mark.parametrize(
+    ("box", "message"),
+    [
+        (BoxParams(size=[1.0, 1.0]), "size: must have 3 elements, got 2"),
+        (BoxParams(size=[1.0, 0.0, 1.0]), r"size\[1\]: must be positive, got 0 m"),
+        (BoxParams(name=""), "name: must not be empty"),
+    ],
+)
+def test_wrong_box_is_refused(box: BoxParams, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        SceneParams(boxes=[box]).solids()
