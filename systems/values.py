@@ -170,6 +170,60 @@ class FootstepPlan(Value):
 
 
 @dataclass(frozen=True, eq=False)
+class ContactPhase(Value):
+    """A stretch of a motion with the same contacts."""
+
+    start: float
+    """s after the motion's start."""
+    end: float
+    """s after the motion's start."""
+    stance: tuple[Foot, ...]
+    """The feet on the ground."""
+    swing: Foot | None
+    """The foot in the air."""
+
+
+@dataclass(frozen=True, eq=False)
+class MotionPlan(Value):
+    """What the feet and the CoM are to do, sampled every `period` from `start_time`.
+
+    Row i is due at start_time + i * period; after the last row it is held. Feet are
+    in the order left, right.
+    """
+
+    start_time: float
+    """s."""
+    period: float
+    """s."""
+    footsteps: tuple[Footstep, ...]
+    phases: tuple[ContactPhase, ...]
+    contacts: Vector
+    """1 where a foot is to be on the ground, (n, 2)."""
+    foot_poses: Vector
+    """Sole frames X_WF as (x, y, z, roll, pitch, yaw) of each foot, (n, 2, 6)."""
+    contact_lengths: Vector
+    """How much of each sole, from the toe edge back, carries, (n, 2), m: the whole
+    sole when flat, a strip at the toes when the heel is lifted."""
+    com: Vector
+    """p_WCom, (n, 3), m."""
+    com_velocity: Vector
+    """(n, 3), m/s."""
+    com_acceleration: Vector
+    """(n, 3), m/s^2."""
+    zmp: Vector
+    """p_WZmp of that CoM motion with varying height, on the stance, (n, 3), m."""
+    cart_zmp: Vector
+    """ZMP of the cart-table of constant height that moves like it, (n, 2), m."""
+    waist: Vector
+    """Pelvis (roll, pitch, yaw) in W, (n, 3), rad."""
+
+    @property
+    def duration(self) -> float:
+        """s from the first row to the last."""
+        return (len(self.zmp) - 1) * self.period
+
+
+@dataclass(frozen=True, eq=False)
 class PlaneSegmentation(Value):
     """What one cloud says about horizontal planes."""
 
