@@ -58,7 +58,8 @@ class ValueLogSink(LeafSystem):
         self._log: CacheEntry = self.DeclareCacheEntry(
             "log",
             ValueProducer(
-                allocate=lambda: Value[object]([]), calc=ValueProducer.NoopCalc
+                allocate=lambda: Value[object]([]),
+                calc=ValueProducer.NoopCalc,  # type: ignore[arg-type]
             ),
             {self.nothing_ticket()},
         )
@@ -72,7 +73,7 @@ class ValueLogSink(LeafSystem):
 
     def _entries(self, context: Context) -> list[LoggedValue]:
         held = self._log.get_mutable_cache_entry_value(context)
-        entries = held.GetMutableValueOrThrow()  # type: ignore[no-untyped-call]
+        entries = held.GetMutableValueOrThrow()
         if not isinstance(entries, list):
             raise TypeError(f"the log holds {type(entries).__name__}, expected a list")
         return entries

@@ -256,3 +256,25 @@ class StancePolygon(Value):
     """"ok", or why there is no polygon."""
     margin: float = float("nan")
     """Signed distance of the CoM to the nearest edge, m, positive inside."""
+
+
+@dataclass(frozen=True, eq=False)
+class Touch(Value):
+    """Part of the robot that met part of the scene."""
+
+    body: str
+    """The robot's body."""
+    solid: str
+    """The scene's solid, e.g. "staircase/step_2"."""
+    duration: float
+    """For how long they touched, all in all, s."""
+    peak_force: float
+    """The largest contact force between them, N."""
+
+
+@dataclass(frozen=True, eq=False)
+class Touches(Value):
+    """Every pair that has met since the start."""
+
+    touches: tuple[Touch, ...] = ()
+    """One entry a pair, by body and then by solid."""
