@@ -21,13 +21,16 @@ SHAPES = [(0.12, 0.07, 0.7), (0.1, 0.02, 0.2), (0.07, 0.07, 1.3)]
 X_WC = RigidTransform(RollPitchYaw(0.3, -0.5, 1.1), [0.4, -0.7, 0.25])
 
 
-def _in_span(generators, wrench):
+def _in_span(generators: np.ndarray, wrench: np.ndarray) -> bool:
     scale = np.linalg.norm(wrench)
     return nnls(generators, wrench / scale)[1] < 1e-9
 
 
 @pytest.mark.parametrize(("X", "Y", "mu"), SHAPES)
-def test_generators_satisfy_the_inequalities_and_every_row_is_tight(X, Y, mu):
+def test_generators_satisfy_the_inequalities_and_every_row_is_tight(
+    X: float, Y: float, mu: float
+) -> None:
+    """No generator leaves the cone; each row is a facet of it."""
     A, G = contact_wrench_cone(X, Y, mu), contact_wrench_generators(X, Y, mu)
     assert A.shape == (16, 6)
     assert G.shape == (6, 16)
@@ -39,7 +42,8 @@ def test_generators_satisfy_the_inequalities_and_every_row_is_tight(X, Y, mu):
 
 
 @pytest.mark.parametrize(("X", "Y", "mu"), SHAPES)
-def test_both_forms_accept_the_same_wrenches(X, Y, mu):
+def test_both_forms_accept_the_same_wrenches(X: float, Y: float, mu: float) -> None:
+    """A wrench in the span obeys the rows and no other does."""
     rng = np.random.default_rng(0)
     A, G = contact_wrench_cone(X, Y, mu), contact_wrench_generators(X, Y, mu)
     inside = 0
@@ -55,7 +59,9 @@ def test_both_forms_accept_the_same_wrenches(X, Y, mu):
 
 
 @pytest.mark.parametrize(("X", "Y", "mu"), SHAPES)
-def test_largest_yaw_torque_is_the_linear_programme_s(X, Y, mu):
+def test_largest_yaw_torque_is_the_linear_programme_s(
+    X: float, Y: float, mu: float
+) -> None:
     """The yaw bound is the part of the closed form that is not plain to see."""
     A, G = contact_wrench_cone(X, Y, mu), contact_wrench_generators(X, Y, mu)
     rng = np.random.default_rng(1)
@@ -73,7 +79,8 @@ def test_largest_yaw_torque_is_the_linear_programme_s(X, Y, mu):
         assert by_inequalities.fun == pytest.approx(by_generators.fun, abs=1e-9)
 
 
-def test_corner_forces_in_the_world_obey_the_world_s_cone():
+def test_corner_forces_in_the_world_obey_the_world_s_cone() -> None:
+    """What forces at the corners add up to lies in the cone, about any point."""
     contact = Contact(X_WC, 0.12, 0.07, 0.7)
     rng = np.random.default_rng(2)
     p_WQ = np.array([0.3, 2.0, -1.0])
@@ -90,7 +97,8 @@ def test_corner_forces_in_the_world_obey_the_world_s_cone():
     assert (A @ -wrench).max() > 0.1
 
 
-def test_world_forms_agree():
+def test_world_forms_agree() -> None:
+    """Also as one carries the other over."""
     contact = Contact(X_WC, 0.12, 0.07, 0.7)
     A, G = contact_wrench_cone_world(contact), contact_wrench_generators_world(contact)
     products = A @ G
@@ -101,7 +109,8 @@ def test_world_forms_agree():
     )
 
 
-def test_a_point_contact_exerts_no_torque_at_its_point():
+def test_a_point_contact_exerts_no_torque_at_its_point() -> None:
+    """Its rows forbid every torque about it, in the world too."""
     contact = point_contact(X_WC, 0.5)
     assert contact_wrench_generators_world(contact).shape == (6, 4)
     G = contact_wrench_generators_world(contact, X_WC.translation())
@@ -113,7 +122,8 @@ def test_a_point_contact_exerts_no_torque_at_its_point():
         assert (A @ [*push, *torque]).max() > 0.1
 
 
-def test_without_friction_only_normal_pushes_remain():
+def test_without_friction_only_normal_pushes_remain() -> None:
+    """Ice: no tangential force, no yaw torque."""
     G = contact_wrench_generators(0.12, 0.07, 0.0)
     np.testing.assert_array_equal(G[[0, 1, 5]], 0.0)
     A = contact_wrench_cone(0.12, 0.07, 0.0)
@@ -122,7 +132,8 @@ def test_without_friction_only_normal_pushes_remain():
     assert (A @ [0, 0, 1, 0, 0, 0.01]).max() > 0.0
 
 
-def test_sole_contact_is_centred_on_the_sole():
+def test_sole_contact_is_centred_on_the_sole() -> None:
+    """Heel and toe differ, the rectangle is theirs."""
     contact = sole_contact(X_WC, heel=0.1, toe=0.14, half_width=0.07, friction=0.7)
     corners = X_WC.inverse().multiply(contact.corners().T)
     assert corners[0].max() == pytest.approx(0.14)
@@ -131,7 +142,8 @@ def test_sole_contact_is_centred_on_the_sole():
     np.testing.assert_allclose(corners[2], 0.0, atol=1e-12)
 
 
-def test_stance_generators_stand_side_by_side():
+def test_stance_generators_stand_side_by_side() -> None:
+    """Sixteen of a foot, four of a point."""
     contacts = [Contact(X_WC, 0.1, 0.05, 0.6), point_contact(X_WC, 0.4)]
     assert stance_generators(contacts).shape == (6, 20)
     assert stance_generators([]).shape == (6, 0)
@@ -145,7 +157,10 @@ def test_stance_generators_stand_side_by_side():
         ((0.1, 0.05, -0.5), "friction"),
     ],
 )
-def test_what_is_no_contact_is_refused(values, field):
+def test_what_is_no_contact_is_refused(
+    values: tuple[float, float, float], field: str
+) -> None:
+    """By each function, with the field and the value."""
     with pytest.raises(ValueError, match=f"{field}: .* got"):
         contact_wrench_cone(*values)
     with pytest.raises(ValueError, match=field):
