@@ -1,0 +1,47 @@
+"""How long footstep planning takes."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from pydrake.math import RigidTransform, RollPitchYaw
+
+from models.robot import Sole
+from systems.planning.footstep_params import FootstepPlannerParams
+from systems.planning.footstep_planner import plan_footsteps
+from systems.values import PlaneSegment, Staircase
+
+
+def rectangle(p: list[float], depth: float, width: float) -> PlaneSegment:
+    """A level plane segment about p whose polygon is its rectangle."""
+    half = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+    corners = np.array(p) + np.hstack(
+        [half * np.array([depth, width]) / 2.0, np.zeros((4, 1))]
+    )
+    return PlaneSegment(
+        corners,
+        RigidTransform(p),
+        np.array([depth, width]),
+        np.array([0.0, 0.0, 1.0]),
+        depth * width,
+        100,
+    )
+
+
+@pytest.mark.parametrize("distance", [0.3, 1.5, 4.0])
+def test_footstep_planning(benchmark: Any, distance: float) -> None:
+    """From a start turned by 15 deg and 15 cm off the middle of eleven treads."""
+    treads = tuple(
+        rectangle([0.265 * (i + 0.5), 0.0, 0.18 * (i + 1)], 0.265, 1.23)
+        for i in range(11)
+    )
+    stairs = Staircase(treads, rectangle([-3.0, 0.0, 0.0], 6.0, 4.0))
+    X_WM = RigidTransform(
+        RollPitchYaw(0.0, 0.0, 0.26), np.array([-distance - 0.15, 0.15, 0.0])
+    )
+    left = X_WM @ RigidTransform([0.0, 0.095, 0.0])
+    right = X_WM @ RigidTransform([0.0, -0.095, 0.0])
+    sole = Sole(heel=0.075, toe=0.150, half_width=0.042, ankle_height=0.1077)
+    params = FootstepPlannerParams()
+    plan = benchmark(plan_footsteps, stairs, left, right, params, sole)
+    assert plan.status == "planned"
