@@ -1,0 +1,158 @@
+"""Which of the planes are the treads of a staircase.
+
+Two ways: the paper's (Sec. 4.3: the largest cluster of planes of like size) and, the
+default, the longest chain of planes of a tread's size that rise from one to the next.
+All of it in a frame G whose z points up.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.cluster.hierarchy import fcluster, linkage
+
+from systems.perception.planes import Patch
+from systems.ports import Vector
+
+
+@dataclass(kw_only=True)
+class StairLimits:
+    """What passes for a staircase."""
+
+    min_depth: float = 0.10
+    """Least depth of a tread, m: less than any sole needs, so that a tread that is
+    seen in part still counts."""
+    max_depth: float = 0.45
+    """Largest depth of a tread, m: building codes stop at 0.36; a landing has more."""
+    min_width: float = 0.30
+    """Least width of a tread, m: two feet side by side."""
+    max_width: float = 3.0
+    """Largest width of a tread, m."""
+    min_rise: float = 0.05
+    """Least rise from a tread to the next, m."""
+    max_rise: float = 0.32
+    """Largest rise from a tread to the next, m: the paper climbs 0.24."""
+    max_turn: float = 0.35
+    """Most that the way to the next tread departs from a tread's own axis, rad."""
+    size_tolerance: float = 0.1
+    """Distance below which two sizes (dx, dy) are of one cluster, m; the paper names
+    the clustering, not its distance."""
+
+
+def largest_size_cluster(extents: Vector, tolerance: float) -> list[int]:
+    """The paper's rule: the largest cluster of segments in the (dx, dy) plane.
+
+    Args:
+        extents: (dx, dy, dz) of each segment, (n, 3), m.
+        tolerance: single-linkage distance, m.
+
+    Returns:
+        Indices of the cluster's segments; of clusters as large the one with the
+        smallest segments, for the others are floors and landings.
+    """
+    if len(extents) < 2:
+        return list(range(len(extents)))
+    labels = fcluster(linkage(extents[:, :2]), tolerance, criterion="distance")
+    best = max(
+        np.unique(labels),
+        key=lambda label: (
+            np.count_nonzero(labels == label),
+            -float(np.prod(extents[labels == label, :2], axis=1).mean()),
+        ),
+    )
+    return [int(i) for i in np.flatnonzero(labels == best)]
+
+
+def tread_candidates(
+    patches: tuple[Patch, ...], limits: StairLimits, max_dz: float
+) -> list[int]:
+    """Indices of the level patches with the size of a tread, lowest first."""
+    chosen = [
+        number
+        for number, patch in enumerate(patches)
+        if patch.extent[2] <= max_dz
+        and limits.min_depth <= patch.extent[0] <= limits.max_depth
+        and limits.min_width <= patch.extent[1] <= limits.max_width
+    ]
+    return sorted(chosen, key=lambda number: float(patches[number].center[2]))
+
+
+def longest_chain(
+    patches: tuple[Patch, ...], candidates: list[int], limits: StairLimits
+) -> list[int]:
+    """The longest flight: each tread a rise above and a run behind the one before.
+
+    Args:
+        patches: all patches.
+        candidates: indices of those with the size of a tread, lowest first.
+        limits: what passes for a staircase.
+
+    Returns:
+        Indices of the treads, lowest first; of flights as long the best supported.
+    """
+    length: dict[int, tuple[int, int]] = {}
+    before: dict[int, int | None] = {}
+    for upper in candidates:
+        support = len(patches[upper].points)
+        length[upper], before[upper] = (1, support), None
+        for lower in candidates:
+            if lower == upper or lower not in length:
+                continue
+            if not _follows(patches[lower], patches[upper], limits):
+                continue
+            longer = (length[lower][0] + 1, length[lower][1] + support)
+            if longer > length[upper]:
+                length[upper], before[upper] = longer, lower
+    if not length:
+        return []
+    last: int | None = max(length, key=lambda number: length[number])
+    chain: list[int] = []
+    while last is not None:
+        chain.append(last)
+        last = before[last]
+    return chain[::-1]
+
+
+def _follows(lower: Patch, upper: Patch, limits: StairLimits) -> bool:
+    """Whether `upper` may be the next tread after `lower`."""
+    step = upper.center - lower.center
+    rise = float(step[2])
+    if not limits.min_rise <= rise <= limits.max_rise:
+        return False
+    axes = (lower.axes[:2, 0], upper.axes[:2, 0])
+    if abs(float(axes[0] @ axes[1])) < np.cos(limits.max_turn):
+        return False
+    wider = max(lower.extent[1], upper.extent[1])
+    if min(lower.extent[1], upper.extent[1]) < 0.6 * wider:
+        return False
+    # Patches of unlike size turn the axis least: measure along the better known one.
+    axis = axes[0] if lower.extent[1] >= upper.extent[1] else axes[1]
+    along = abs(float(step[:2] @ axis))
+    across = abs(float(step[0] * axis[1] - step[1] * axis[0]))
+    deepest = (lower.extent[0] + upper.extent[0]) / 2.0
+    return bool(0.5 * deepest <= along <= deepest + 0.15 and across <= 0.25 * wider)
+
+
+def floor_below(
+    patches: tuple[Patch, ...], treads: list[int], limits: StairLimits
+) -> int | None:
+    """The plane that the staircase rises from: the largest within a rise below it.
+
+    A robot on the stairs may see none there; then the largest of all lower planes.
+    """
+    lowest = np.inf
+    if treads:
+        lowest = float(patches[treads[0]].center[2]) - limits.min_rise
+    below = [
+        number
+        for number, patch in enumerate(patches)
+        if number not in treads and patch.center[2] < lowest
+    ]
+    if not below:
+        return None
+    reach = lowest + limits.min_rise - limits.max_rise
+    adjacent = [
+        number
+        for number in below
+        if treads and float(patches[number].center[2]) >= reach
+    ]
+    return max(adjacent or below, key=lambda number: patches[number].area)
