@@ -1,0 +1,142 @@
+"""What the judge is shown of a run: the truth of the plant, and what was logged."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+import numpy as np
+import pandas as pd
+from pydrake.systems.framework import Context
+
+from diagrams.task_diagram import TaskDiagram
+from diagrams.true_motion import TrueMotion, true_motion
+from models.staircase import Tread
+from systems.ports import Vector
+from systems.values import PlaneSegmentation, TaskStatus, Touch, Touches
+
+Stop: TypeAlias = Literal[
+    "finished", "infeasible", "fell", "time limit", "interrupted", "error"
+]
+"""Why a simulation stopped; the executive said "finished" or "infeasible"."""
+
+STATE_SIGNAL = "plant.state"
+"""Positions, then velocities of the robot: a run that does not log them cannot be
+judged."""
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What the robot may not exceed."""
+
+    torque: Mapping[str, float]
+    """By joint, in the order of the actuators, Nm."""
+    speed: Mapping[str, float]
+    """By joint, rad/s."""
+    weight: float
+    """Of the robot, N."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Evidence:
+    """What the judge is shown."""
+
+    stop: Stop
+    stop_reason: str
+    """In one line."""
+    motion: TrueMotion
+    joint_velocities: Mapping[str, Vector]
+    """By joint, (n,) at `motion.time`, rad/s."""
+    frames: Mapping[str, pd.DataFrame]
+    """The logged signals; those that are missing leave their measures null."""
+    treads: tuple[Tread, ...]
+    """The true treads, lowest first; empty without a staircase."""
+    limits: Limits
+    touches: tuple[Touch, ...] | None = None
+    """What of the robot but its soles met the staircase; None where unknown."""
+    activities: tuple[tuple[float, str], ...] | None = None
+    """When, s, the executive turned to what; None where that was not logged."""
+    segmentations: tuple[PlaneSegmentation, ...] = ()
+    """What perception saw, one entry a frame."""
+
+
+def gather(
+    task: TaskDiagram, context: Context, stop: Stop, stop_reason: str
+) -> Evidence:
+    """Gathers what there is to know about a simulation that has stopped.
+
+    Abstract signals are found by the type of what they carry (`Touches`, `TaskStatus`,
+    `PlaneSegmentation`).
+
+    Args:
+        task: the closed loop.
+        context: the diagram's, after the simulation.
+        stop: why the simulation stopped.
+        stop_reason: the same in one line.
+
+    Raises:
+        ValueError: the task does not log `STATE_SIGNAL`.
+    """
+    frames = task.signals.frames(context)
+    if STATE_SIGNAL not in frames:
+        raise ValueError(f"the task does not log {STATE_SIGNAL}")
+    samples = frames[STATE_SIGNAL].to_numpy(dtype=np.float64)
+    time, state = samples[:, 0], samples[:, 1:]
+    logs = task.signals.logged_values(context).values()
+    entries = [entry for log in logs for entry in log]
+    touches = [entry.value for entry in entries if isinstance(entry.value, Touches)]
+    activities = [
+        (entry.time, entry.value.activity)
+        for entry in entries
+        if isinstance(entry.value, TaskStatus)
+    ]
+    return Evidence(
+        stop=stop,
+        stop_reason=stop_reason,
+        motion=true_motion(task.plant, task.robot_instance, task.robot, time, state),
+        joint_velocities=_joint_velocities(task, state),
+        frames=frames,
+        treads=task.scene.treads(),
+        limits=robot_limits(task),
+        touches=touches[-1].touches if touches else None,
+        activities=tuple(activities) or None,
+        segmentations=tuple(
+            entry.value
+            for entry in entries
+            if isinstance(entry.value, PlaneSegmentation) and entry.value.times_ms
+        ),
+    )
+
+
+def robot_limits(task: TaskDiagram) -> Limits:
+    """The robot's limits as its description has them, and its weight."""
+    plant, instance = task.plant, task.robot_instance
+    actuators = [
+        plant.get_joint_actuator(index)
+        for index in plant.GetJointActuatorIndices(instance)
+    ]
+    context = plant.CreateDefaultContext()
+    gravity = float(np.linalg.norm(plant.gravity_field().gravity_vector()))
+    return Limits(
+        torque={item.joint().name(): item.effort_limit() for item in actuators},
+        speed={
+            item.joint().name(): float(item.joint().velocity_upper_limits()[0])
+            for item in actuators
+        },
+        weight=plant.CalcTotalMass(context, [instance]) * gravity,
+    )
+
+
+def _joint_velocities(task: TaskDiagram, state: Vector) -> dict[str, Vector]:
+    """The velocity of every actuated joint, (n,) each, rad/s."""
+    plant, instance = task.plant, task.robot_instance
+    names = plant.GetVelocityNames(instance, False, False)
+    joints = {
+        plant.get_joint_actuator(index).joint().name()
+        for index in plant.GetJointActuatorIndices(instance)
+    }
+    velocities = state[:, plant.num_positions(instance) :]
+    return {
+        name: velocities[:, column]
+        for column, name in enumerate(names)
+        if name in joints
+    }

@@ -1,0 +1,195 @@
+"""The headless runner: simulates a task, judges it and writes the run folder."""
+
+import os
+import shutil
+import traceback
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from time import perf_counter
+from typing import TypeAlias
+
+from pydrake.systems.analysis import Simulator
+from pydrake.systems.framework import Context
+
+from diagrams.evidence import Stop, gather
+from diagrams.outcome import has_fallen, judge
+from diagrams.signals import SCENARIO_FILE, SIGNALS_FOLDER, SUMMARY_FILE
+from diagrams.summary import (
+    Summary,
+    installed_versions,
+    perception_summary,
+    timing_us,
+)
+from diagrams.task_diagram import TaskDiagram
+from systems.values import FEET
+
+SLICE = 0.05
+"""How long the simulation runs between two looks at how it goes, s."""
+TRACEBACK_FILE = "traceback.txt"
+Progress: TypeAlias = Callable[[float, str], None]
+"""Is told the simulated time, s, and what the executive is doing."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class RunSettings:
+    """How a task is run."""
+
+    scenario: str
+    """Its name."""
+    seed: int
+    time_limit: float
+    """When to give up, s of simulated time."""
+    settle_time: float = 0.5
+    """For how long a finished task is watched on, s."""
+    realtime_rate: float = 0.0
+    """Upper bound of simulated over wall time; 0 runs as fast as it can."""
+
+
+@dataclass(frozen=True)
+class Simulated:
+    """A simulation that has stopped."""
+
+    context: Context
+    """The diagram's, with the logs in it."""
+    stop: Stop
+    reason: str
+    wall_time: float
+    """s."""
+    error: BaseException | None = None
+    """What was raised, where something was."""
+
+
+def run_task(
+    task: TaskDiagram,
+    settings: RunSettings,
+    folder: Path,
+    save_scenario: Callable[[Path], None],
+    progress: Progress | None = None,
+) -> Summary:
+    """Simulates a task and writes its run folder, however the simulation stops.
+
+    The folder appears in one piece: it is written beside its place and then renamed.
+
+    Args:
+        task: the closed loop.
+        settings: how to run it.
+        folder: where the run goes; must not exist, or be empty.
+        save_scenario: writes the fully resolved scenario to the path it is given.
+        progress: is called every `SLICE` of simulated time.
+
+    Raises:
+        FileExistsError: the folder exists and is not empty.
+    """
+    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+        raise FileExistsError(f"{folder}: exists and is not empty")
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    partial = folder.with_name(f".{folder.name}.partial-{os.getpid()}")
+    partial.mkdir()
+    try:
+        save_scenario(partial / SCENARIO_FILE)
+        simulated = simulate(task, settings, progress)
+        task.signals.write(simulated.context, partial / SIGNALS_FOLDER)
+        summary = summarize(task, settings, simulated)
+        summary.write(partial / SUMMARY_FILE)
+        if simulated.error is not None:
+            text = "".join(traceback.format_exception(simulated.error))
+            (partial / TRACEBACK_FILE).write_text(text, encoding="utf-8")
+        partial.replace(folder)
+    finally:
+        shutil.rmtree(partial, ignore_errors=True)
+    return summary
+
+
+def simulate(
+    task: TaskDiagram, settings: RunSettings, progress: Progress | None = None
+) -> Simulated:
+    """Simulates until the task is over, the robot fell, time is up or Ctrl-C.
+
+    An exception, of the contact solver or of a System, ends the simulation like a
+    fall does; what was logged until then is kept.
+    """
+    simulator = Simulator(task.diagram)
+    simulator.set_target_realtime_rate(settings.realtime_rate)
+    context = simulator.get_mutable_context()
+    watch = _FallWatch(task, context)
+    end, finished = settings.time_limit, False
+    stop: Stop = "time limit"
+    reason = f"not done after {settings.time_limit:g} s"
+    error: BaseException | None = None
+    start = perf_counter()
+    try:
+        simulator.Initialize()
+        while context.get_time() < end - 1e-9:
+            simulator.AdvanceTo(min(context.get_time() + SLICE, end))
+            status = task.task_status(context)
+            if progress is not None:
+                progress(context.get_time(), status.activity)
+            if watch.fallen():
+                stop, reason = "fell", f"the robot fell at {context.get_time():.2f} s"
+                break
+            if status.state == "infeasible":
+                stop, reason = "infeasible", status.reason
+                break
+            if status.state == "finished" and not finished:
+                finished, end = True, context.get_time() + settings.settle_time
+                stop, reason = "finished", status.reason
+    except KeyboardInterrupt as interrupt:
+        stop, reason = "interrupted", f"interrupted at {context.get_time():.2f} s"
+        error = interrupt
+    except Exception as exception:
+        stop, error = "error", exception
+        message = (str(exception).splitlines() or [""])[0]
+        what = f"{type(exception).__name__}: {message}"
+        reason = f"the simulation broke off at {context.get_time():.2f} s: {what}"
+    return Simulated(context, stop, reason, perf_counter() - start, error)
+
+
+class _FallWatch:
+    """Looks at the true robot while it moves."""
+
+    def __init__(self, task: TaskDiagram, context: Context) -> None:
+        self._plant = task.plant
+        self._context = task.plant.GetMyContextFromRoot(context)
+        robot, instance = task.robot, task.robot_instance
+        self._base = self._plant.GetBodyByName(robot.base_body, instance)
+        self._torso = self._plant.GetBodyByName(robot.torso_body, instance)
+        self._feet = [
+            self._plant.GetBodyByName(robot.foot_bodies[foot], instance)
+            for foot in FEET
+        ]
+        self._ankle_height = robot.sole.ankle_height
+        self._initial = self._height()
+
+    def _height(self) -> float:
+        def z(body: object) -> float:
+            pose = self._plant.EvalBodyPoseInWorld(self._context, body)  # type: ignore[arg-type]
+            return float(pose.translation()[2])
+
+        lowest = min(z(foot) for foot in self._feet) - self._ankle_height
+        return z(self._base) - lowest
+
+    def fallen(self) -> bool:
+        """Whether it lies or is about to."""
+        pose = self._plant.EvalBodyPoseInWorld(self._context, self._torso)
+        up = float(pose.rotation().matrix()[2, 2])
+        return has_fallen(self._height(), self._initial, up)
+
+
+def summarize(
+    task: TaskDiagram, settings: RunSettings, simulated: Simulated
+) -> Summary:
+    """Judges a simulation that has stopped and gathers what its summary says."""
+    evidence = gather(task, simulated.context, simulated.stop, simulated.reason)
+    simulated_time = simulated.context.get_time()
+    return Summary(
+        **asdict(judge(evidence)),
+        scenario=settings.scenario,
+        seed=settings.seed,
+        simulated_time_s=simulated_time,
+        wall_time_s=simulated.wall_time,
+        real_time_factor=simulated_time / simulated.wall_time or None,
+        perception=perception_summary(evidence.segmentations, evidence.treads),
+        timing_us=timing_us(task.diagram),
+        versions=installed_versions(),
+    )

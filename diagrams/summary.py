@@ -1,0 +1,148 @@
+"""The summary of a run: what `summary.json` holds."""
+
+import json
+import platform
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from importlib.metadata import version
+from pathlib import Path
+
+import numpy as np
+from pydrake.systems.framework import Diagram, System
+
+from diagrams.outcome import Judgement
+from models.staircase import Tread
+from systems.ports import Vector
+from systems.timing import stopwatch
+from systems.values import Json, PlaneSegment, PlaneSegmentation, to_json
+
+PACKAGES = ("footfall", "drake", "numpy", "scipy", "open3d-cpu", "daqp")
+"""Whose versions a summary names."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Summary(Judgement):
+    """A judgement and the circumstances; a figure that was not measured is None."""
+
+    scenario: str
+    seed: int
+    simulated_time_s: float
+    wall_time_s: float
+    """Wall time of the simulation alone, without building and writing."""
+    real_time_factor: float | None
+    """Simulated time over wall time."""
+    obstacles_crossed: int | None = None
+    goal_error_m: float | None = None
+    perception: Mapping[str, Json] | None = None
+    """Frames, ms a frame by stage, errors against the true scene."""
+    timing_us: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    """By system: median, 99th percentile and count of its callbacks, us."""
+    versions: Mapping[str, str] = field(default_factory=dict)
+
+    def to_json(self) -> dict[str, Json]:
+        """The summary as plain JSON data, the outcome first."""
+        first = ("scenario", "outcome", "reason", "seed")
+        data = {name: to_json(value) for name, value in asdict(self).items()}
+        return {name: data[name] for name in first} | data
+
+    def write(self, path: Path) -> None:
+        """Writes the summary as a JSON file."""
+        text = json.dumps(self.to_json(), indent=2, allow_nan=False)
+        path.write_text(text + "\n", encoding="utf-8")
+
+
+def timing_us(diagram: Diagram) -> dict[str, dict[str, float]]:
+    """Median, 99th percentile and count of the timed callbacks of every system, us."""
+    timings = {}
+    for name, system in _systems(diagram, ""):
+        watch = stopwatch(system)
+        durations = watch.durations() if watch else np.zeros(0)
+        if len(durations):
+            timings[name] = {
+                "median": round(float(np.median(durations)) * 1e6, 1),
+                "p99": round(float(np.percentile(durations, 99.0)) * 1e6, 1),
+                "calls": len(durations),
+            }
+    return timings
+
+
+def _systems(diagram: Diagram, prefix: str) -> Iterator[tuple[str, System]]:
+    for system in diagram.GetSystems():
+        name = prefix + system.get_name()
+        if isinstance(system, Diagram):
+            yield from _systems(system, name + "/")
+        else:
+            yield name, system
+
+
+def installed_versions() -> dict[str, str]:
+    """Version of Python and of every package of `PACKAGES` that is installed."""
+    versions = {"python": platform.python_version()}
+    for package in PACKAGES:
+        try:
+            versions[package] = version(package)
+        except ModuleNotFoundError:  # open3d goes by another name on some systems
+            continue
+    return versions
+
+
+def perception_summary(
+    segmentations: Sequence[PlaneSegmentation], treads: Sequence[Tread]
+) -> dict[str, Json] | None:
+    """How perception did; None where it did not run.
+
+    Args:
+        segmentations: one a frame, poses in W.
+        treads: the true ones.
+
+    Returns:
+        `frames`; `ms_per_frame`: median by stage and in all; `errors`: over all frames
+        and treads the mean and largest error of the height (m), of the front edge (m)
+        and of the normal (deg), None where there is nothing to compare.
+    """
+    if not segmentations:
+        return None
+    stages: dict[str, list[float]] = {}
+    for segmentation in segmentations:
+        for stage, milliseconds in segmentation.times_ms:
+            stages.setdefault(stage, []).append(milliseconds)
+        total = sum(milliseconds for _, milliseconds in segmentation.times_ms)
+        stages.setdefault("total", []).append(total)
+    medians: dict[str, Json] = {
+        stage: round(float(np.median(times)), 2) for stage, times in stages.items()
+    }
+    errors = [
+        error
+        for segmentation in segmentations
+        for seen in segmentation.staircase.treads
+        if (error := _tread_error(seen, treads)) is not None
+    ]
+    return {
+        "frames": len(segmentations),
+        "ms_per_frame": medians,
+        "errors": _error_summary(np.array(errors)) if errors else None,
+    }
+
+
+def _tread_error(seen: PlaneSegment, treads: Sequence[Tread]) -> Vector | None:
+    """Height, front edge (m) and normal (deg) against the nearest true tread, (3,)."""
+    centre = np.array(seen.X_WR.translation())
+    if not treads:
+        return None
+    true = min(
+        treads, key=lambda t: float(np.linalg.norm(t.X_WR.translation() - centre))
+    )
+    corners = np.array(true.X_WR.inverse().multiply(seen.corners().T))
+    up = np.array(true.X_WR.rotation().col(2))
+    front = corners[0].min() + true.size[0] / 2.0
+    tilt = np.arccos(np.clip(seen.normal @ up, -1.0, 1.0))
+    return np.abs([corners[2].mean(), front, np.rad2deg(tilt)])
+
+
+def _error_summary(errors: Vector) -> dict[str, Json]:
+    names = ("height_m", "front_edge_m", "normal_deg")
+    summary: dict[str, Json] = {"treads": len(errors)}
+    for name, column in zip(names, errors.T, strict=True):
+        summary[f"mean_{name}"] = round(float(column.mean()), 5)
+        summary[f"max_{name}"] = round(float(column.max()), 5)
+    return summary

@@ -1,0 +1,152 @@
+"""A task that any machine can run in a second: the robot stands, a clock ends it."""
+
+from pathlib import Path
+
+import numpy as np
+from pydrake.common.value import Value
+from pydrake.math import RigidTransform
+from pydrake.multibody.plant import AddMultibodyPlant, MultibodyPlantConfig
+from pydrake.systems.framework import Context, DiagramBuilder, LeafSystem
+from pydrake.systems.primitives import ConstantVectorSource
+
+from diagrams.signals import SignalRecorder
+from diagrams.task_diagram import TaskDiagram
+from models.jvrc1 import JVRC1
+from models.robot_loader import add_robot, is_sole
+from models.scene import SceneParams
+from models.solids import add_solids
+from systems.sensing.contact_monitor import ContactMonitor, watched_geometry
+from systems.timing import timed
+from systems.values import TaskStatus
+
+TIME_STEP = 2e-3
+
+
+class Clock(LeafSystem):
+    """An executive that says `last` from a given time on, or raises then.
+
+    .. pydrake_system::
+
+        name: Clock
+        input_ports: []
+        output_ports:
+        - status
+    """
+
+    def __init__(self, end: float, last: TaskStatus | Exception | BaseException):
+        super().__init__()
+        self._end, self._last = end, last
+        self.DeclareAbstractOutputPort(
+            "status",
+            lambda: Value[object](TaskStatus()),
+            timed(self, self._calc_status),
+            prerequisites_of_calc={self.time_ticket()},
+        )
+
+    def _calc_status(self, context: Context, status: Value) -> None:
+        if context.get_time() < self._end:
+            status.set_value(TaskStatus(activity="stand"))
+        elif isinstance(self._last, BaseException):
+            raise self._last
+        else:
+            status.set_value(self._last)
+
+
+def standing_task(
+    end: float = 0.2,
+    last: TaskStatus | BaseException = TaskStatus("finished", "stand", "stood"),  # noqa: B008
+    scene: SceneParams | None = None,
+    pitch: float = 0.0,
+) -> TaskDiagram:
+    """The robot holds its posture until `end`, s; `pitch` of the ankles makes it fall.
+
+    Args:
+        end: when the executive says `last`, s.
+        last: what it says, or raises.
+        scene: what stands around, by default an empty room.
+        pitch: added to both ankles' reference, rad.
+    """
+    scene = scene or SceneParams()
+    builder = DiagramBuilder()
+    plant, scene_graph = AddMultibodyPlant(
+        MultibodyPlantConfig(
+            time_step=TIME_STEP,
+            contact_model="point",
+            discrete_contact_approximation="sap",
+        ),
+        builder,
+    )
+    plant.set_name("plant")
+    add_solids(plant, scene.solids())
+    robot = add_robot(plant, scene_graph, JVRC1)
+    plant.Finalize()
+    base = plant.GetBodyByName(JVRC1.base_body, robot)
+    plant.SetDefaultFloatingBaseBodyPose(base, RigidTransform(np.array([0, 0, 0.85])))
+    for name, angle in JVRC1.posture.items():
+        plant.GetJointByName(name).set_default_angle(angle)
+    context = plant.CreateDefaultContext()
+    foot = plant.GetBodyByName(JVRC1.foot_bodies["left"], robot)
+    sole = plant.EvalBodyPoseInWorld(context, foot).translation()[2]
+    com = plant.CalcCenterOfMassPositionInWorld(context, [robot])
+    height = 0.85 - sole + JVRC1.sole.ankle_height
+    plant.SetDefaultFloatingBaseBodyPose(
+        base, RigidTransform(np.array([-com[0], 0.0, height]))
+    )
+    joints = [
+        plant.get_joint_actuator(index).joint()
+        for index in plant.GetJointActuatorIndices(robot)
+    ]
+    wanted = np.array(
+        [
+            JVRC1.posture.get(joint.name(), 0.0)
+            + pitch * joint.name().endswith("ANKLE_P")
+            for joint in joints
+        ]
+    )
+    posture = builder.AddNamedSystem(
+        "posture", ConstantVectorSource(np.concatenate([wanted, 0.0 * wanted]))
+    )
+    builder.Connect(
+        posture.get_output_port(), plant.get_desired_state_input_port(robot)
+    )
+    clock = builder.AddNamedSystem("executive", Clock(end, last))
+    watched = watched_geometry(
+        plant, scene_graph.model_inspector(), robot, "staircase/", is_sole
+    )
+    monitor = builder.AddNamedSystem(
+        "contact_monitor", ContactMonitor(watched, TIME_STEP)
+    )
+    builder.Connect(
+        plant.get_contact_results_output_port(), monitor.GetInputPort("contact_results")
+    )
+    signals = SignalRecorder(builder)
+    names = [
+        *plant.GetPositionNames(robot, False, True),
+        *plant.GetVelocityNames(robot, False, True),
+    ]
+    signals.add_vector(
+        "plant.state", plant.get_state_output_port(robot), tuple(names), "1", 0.005
+    )
+    signals.add_vector(
+        "plant.net_actuation",
+        plant.get_net_actuation_output_port(robot),
+        tuple(joint.name() for joint in joints),
+        "Nm",
+        0.005,
+    )
+    signals.add_value("executive.status", clock.GetOutputPort("status"), 0.005)
+    signals.add_value("contact_monitor.touches", monitor.GetOutputPort("touches"), 0.05)
+    return TaskDiagram(
+        diagram=builder.Build(),
+        plant=plant,
+        robot_instance=robot,
+        robot=JVRC1,
+        scene=scene,
+        signals=signals,
+        status=clock.GetOutputPort("status"),
+    )
+
+
+def save_scenario(path: Path) -> None:
+    """Stands in for the real thing."""
+    path.write_text("name: standing\n")
