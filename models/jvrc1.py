@@ -27,13 +27,14 @@ def _sides(names: tuple[str, ...]) -> tuple[str, ...]:
 
 
 # The description names no rotor inertia; these are what geared humanoid joints of
-# this size typically reflect. Soft ankles let the feed-forward wrench act (a stiff
-# ankle would turn every height error of the ground into a moment).
-_STIFF = JointGains(stiffness=4000.0, damping=80.0, reflected_inertia=0.1)
+# this size typically reflect. Soft legs and softer ankles let the feed-forward wrench
+# act: a stiff leg turns every millimetre of ground that is not where it was planned
+# into hundreds of newtons.
+_LEG_GAINS = JointGains(stiffness=1000.0, damping=100.0, reflected_inertia=0.1)
 _ANKLE = JointGains(stiffness=150.0, damping=8.0, reflected_inertia=0.05)
 _UPPER = JointGains(stiffness=1000.0, damping=40.0, reflected_inertia=0.05)
 _GAINS = (
-    {joint: _STIFF for joint in (*_sides(_LEG[:4]), *_WAIST)}
+    {joint: _LEG_GAINS for joint in (*_sides(_LEG[:4]), *_WAIST)}
     | {joint: _ANKLE for joint in _sides(_LEG[4:])}
     | {joint: _UPPER for joint in (*_NECK, *_sides(_ARM))}
 )
@@ -74,5 +75,7 @@ JVRC1 = RobotModel(
     posture=_POSTURE,
     gains=_GAINS,
     lidar_position=(0.15, 0.0, 0.12),
-    standing_com_height=0.80,
+    standing_com=(0.035, 0.85),
+    hip_from_com=(-0.03, -0.04),
+    leg_reach=0.725,
 )

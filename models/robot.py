@@ -69,5 +69,9 @@ class RobotModel:
     """Servo of each joint by name."""
     lidar_position: tuple[float, float, float]
     """Where the scanner's centre sits in the head body's frame, m."""
-    standing_com_height: float
-    """CoM height above the soles when standing ready to walk, m."""
+    standing_com: tuple[float, float]
+    """CoM ahead of the ankles and above the soles when standing ready to walk, m."""
+    hip_from_com: tuple[float, float]
+    """About how far the hips are ahead of the CoM and above it when leaning, m."""
+    leg_reach: float
+    """Greatest distance from hip to ankle with the knee still bent, m."""
