@@ -14,6 +14,7 @@ def _inside(box: Box, p_W: np.ndarray) -> bool:
 
 @pytest.mark.parametrize("yaw", [0.0, 0.7])
 def test_walls_begin_where_the_room_ends(yaw: float) -> None:
+    """Just inside is free, just outside is solid, at each side."""
     room = RoomParams(length=11.0, width=7.0, height=3.0, x=1.0, y=-2.0, yaw=yaw)
     solids = {box.name: box for box in room.solids()}
     X_WR = upright_pose(1.0, -2.0, 0.0, yaw)
@@ -34,10 +35,12 @@ def test_walls_begin_where_the_room_ends(yaw: float) -> None:
 
 
 def test_floor_is_the_ground() -> None:
+    """Its upper face is z = 0."""
     floor = RoomParams().solids()[0]
     assert floor.X_WB.translation()[2] + floor.size[2] / 2.0 == 0.0
 
 
 def test_room_without_height_is_refused() -> None:
+    """A flat room has no inside."""
     with pytest.raises(ValueError, match="height: must be positive, got 0 m"):
         RoomParams(height=0.0).solids()

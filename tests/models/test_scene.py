@@ -8,6 +8,7 @@ from models.staircase import StaircaseParams
 
 
 def test_scene_gathers_room_stairs_and_boxes() -> None:
+    """In that order, every name once."""
     scene = SceneParams(
         staircase=StaircaseParams(steps=2),
         boxes=[BoxParams(name="bar", x=1.0, z=0.1, size=[0.05, 1.0, 0.15])],
@@ -22,10 +23,12 @@ def test_scene_gathers_room_stairs_and_boxes() -> None:
 
 
 def test_scene_without_stairs_has_no_treads() -> None:
+    """An empty room has nothing to climb."""
     assert SceneParams().treads() == ()
 
 
 def test_equal_names_are_refused() -> None:
+    """A contact could not be traced otherwise."""
     scene = SceneParams(boxes=[BoxParams(name="a"), BoxParams(name="a")])
     with pytest.raises(ValueError, match=r"boxes\[1\].name: must be unique, got 'a'"):
         scene.solids()
@@ -40,5 +43,6 @@ def test_equal_names_are_refused() -> None:
     ],
 )
 def test_wrong_box_is_refused(box: BoxParams, message: str) -> None:
+    """Every field that can be wrong is refused under its name."""
     with pytest.raises(ValueError, match=message):
         SceneParams(boxes=[box]).solids()

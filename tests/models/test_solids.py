@@ -21,6 +21,7 @@ def _box(size: list[float], **pose: float) -> Box:
 
 
 def test_mesh_is_closed_and_faces_outwards() -> None:
+    """Volume and area of the mesh are those of the boxes."""
     solids = (
         _box([1.0, 2.0, 3.0], x=0.4, y=-1.0, z=2.0, yaw=0.3),
         _box([0.5, 0.5, 0.5], z=9.0),
@@ -38,17 +39,20 @@ def test_mesh_is_closed_and_faces_outwards() -> None:
 
 
 def test_mesh_of_nothing_is_empty() -> None:
+    """No solids, no triangles."""
     vertices, triangles = triangle_mesh(())
     assert vertices.shape == (0, 3)
     assert triangles.shape == (0, 3)
 
 
 def test_solids_compare_by_value() -> None:
+    """Pose and size count."""
     assert _box([1.0, 2.0, 3.0], x=0.4) == _box([1.0, 2.0, 3.0], x=0.4)
     assert _box([1.0, 2.0, 3.0], x=0.4) != _box([1.0, 2.0, 3.1], x=0.4)
 
 
 def test_ball_rests_on_the_step_that_contact_names() -> None:
+    """Contact acts on the step's face and carries its name and friction."""
     radius, mass = 0.02, 1.0
     builder = DiagramBuilder()
     plant, _ = AddMultibodyPlantSceneGraph(builder, time_step=1e-3)

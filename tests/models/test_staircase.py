@@ -7,6 +7,7 @@ from models.staircase import StaircaseParams
 
 
 def test_steps_rise_by_rise_and_recede_by_run() -> None:
+    """Treads and boxes lie where rise, run and width put them."""
     stairs = StaircaseParams(steps=4, rise=0.18, run=0.265, width=1.23, x=0.6)
     for index, (tread, solid) in enumerate(
         zip(stairs.treads(), stairs.solids(), strict=True)
@@ -23,6 +24,7 @@ def test_steps_rise_by_rise_and_recede_by_run() -> None:
 
 
 def test_open_steps_are_plates_under_their_treads() -> None:
+    """Without risers the tread stays where it was."""
     stairs = StaircaseParams(closed_risers=False, tread_thickness=0.03)
     for tread, solid in zip(stairs.treads(), stairs.solids(), strict=True):
         assert solid.size == pytest.approx([0.27, 0.5, 0.03])
@@ -31,6 +33,7 @@ def test_open_steps_are_plates_under_their_treads() -> None:
 
 
 def test_yaw_turns_the_stairs_about_their_foot() -> None:
+    """The frame of each tread keeps x up the stairs."""
     stairs = StaircaseParams(x=1.0, y=2.0, yaw=np.pi / 2.0)
     tread = stairs.treads()[2]
     assert tread.X_WR.translation() == pytest.approx([1.0, 2.0 + 2.5 * 0.27, 0.6])
@@ -50,6 +53,7 @@ def test_yaw_turns_the_stairs_about_their_foot() -> None:
     ],
 )
 def test_wrong_field_is_named(field: str, value: float, message: str) -> None:
+    """Every field that can be wrong is refused under its name."""
     stairs = StaircaseParams()
     setattr(stairs, field, value)
     with pytest.raises(ValueError, match=message):
@@ -57,6 +61,7 @@ def test_wrong_field_is_named(field: str, value: float, message: str) -> None:
 
 
 def test_open_steps_thicker_than_the_rise_are_refused() -> None:
+    """Plates that touch would be closed risers."""
     stairs = StaircaseParams(closed_risers=False, rise=0.1, tread_thickness=0.1)
     with pytest.raises(ValueError, match="tread_thickness: must be less than the rise"):
         stairs.solids()

@@ -1,0 +1,219 @@
+"""From the lines of a tilting scanner to a cloud without the robot's own body."""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from pydrake.common.value import AbstractValue
+from pydrake.math import RigidTransform
+from pydrake.perception import PointCloud
+from pydrake.systems.framework import BasicVector, Context, LeafSystem, State
+
+from models.validation import require_at_least, require_positive
+from systems.ports import Vector, eval_abstract, eval_vector, set_vector
+from systems.sensing.scan_geometry import line_to_points, tilt_pose
+from systems.timing import timed
+from systems.values import LaserScan, Value
+
+
+@dataclass(kw_only=True)
+class ScanAssemblerParams:
+    """How lines become a cloud."""
+
+    margin: float = 0.03
+    """How far the boxes about the robot's own bodies are inflated, m: six standard
+    deviations of the scanner's noise."""
+    period: float = 0.025
+    """How often it looks for a new line, s; the scanner's line period."""
+    offset: float = 0.001
+    """How long after each line it looks, s; the sensor's pose is taken then."""
+
+    def validate(self) -> None:
+        """Checks every field.
+
+        Raises:
+            ValueError: "field: reason, got x" for the first field that is wrong.
+        """
+        require_at_least("margin", self.margin, 0.0, "m")
+        require_positive("period", self.period, "s")
+        require_positive("offset", self.offset, "s")
+        if not self.offset < self.period:
+            raise ValueError(
+                f"offset: must be less than the period, got {self.offset:g} s"
+            )
+
+
+@dataclass(frozen=True, eq=False)
+class SelfFilterBox(Value):
+    """A box about a part of the robot, within which points are its own."""
+
+    body_index: int
+    """The body it is fixed to: where that body's pose is in `body_poses`."""
+    X_BG: RigidTransform
+    """Pose of the box's centre in the body's frame."""
+    size: Vector
+    """Side lengths, (3,), m."""
+
+
+def box_around(body_index: int, vertices: Vector) -> SelfFilterBox:
+    """The least box along the body's axes about vertices in its frame, (n, 3), m."""
+    least, greatest = vertices.min(axis=0), vertices.max(axis=0)
+    centre: Vector = (least + greatest) / 2.0
+    return SelfFilterBox(body_index, RigidTransform(centre), greatest - least)
+
+
+def remove_own_points(
+    p_W: Vector,
+    boxes: Sequence[SelfFilterBox],
+    body_poses: Sequence[RigidTransform],
+    margin: float,
+) -> Vector:
+    """Points that are not the robot's own (stair paper, Sec. 3).
+
+    Args:
+        p_W: points in W, (n, 3), m.
+        boxes: boxes about the robot's bodies.
+        body_poses: X_WB of every body, indexed by `SelfFilterBox.body_index`.
+        margin: how far each box is inflated to every side, m.
+
+    Returns:
+        The points outside every inflated box, (k, 3), m, in their order.
+    """
+    if not boxes or not len(p_W):
+        return p_W
+    poses = [body_poses[box.body_index].multiply(box.X_BG) for box in boxes]
+    R_WG: Vector = np.stack([pose.rotation().matrix() for pose in poses])
+    p_WG: Vector = np.stack([pose.translation() for pose in poses])
+    half: Vector = np.stack([box.size for box in boxes]) / 2.0 + margin
+    # p_G = R_WG' (p_W - p_WG), for all boxes and points at once.
+    p_G = p_W @ R_WG - np.einsum("bi,bij->bj", p_WG, R_WG)[:, np.newaxis, :]
+    own: np.ndarray[Any, np.dtype[np.bool_]] = np.all(
+        np.abs(p_G) <= half[:, np.newaxis, :], axis=2
+    ).any(axis=0)
+    kept: Vector = p_W[~own]
+    return kept
+
+
+@dataclass(frozen=True, eq=False)
+class _Assembly(Value):
+    """What has been taken in so far."""
+
+    time: float = -math.inf
+    """Time of the latest line that was taken in, s."""
+    lines: tuple[Vector, ...] = ()
+    """Points of the lines since the last finished sweep, each (k, 3), m, in W."""
+    cloud: tuple[Vector, ...] = ()
+    """The same of the last finished sweep."""
+    sweeps: int = 0
+    """How many sweeps were assembled."""
+
+
+class ScanAssembler(LeafSystem):
+    """Gathers the lines of each sweep into one cloud in W, less the robot's own points.
+
+    It looks for a new line once a line period, a moment after the scanner takes one,
+    since events at the same instant see each other's state of before. The sensor's
+    pose is the mount's at that moment; the robot is meant to stand still meanwhile.
+
+    .. pydrake_system::
+
+        name: ScanAssembler
+        input_ports:
+        - scan
+        - sweep
+        - body_poses
+        output_ports:
+        - cloud
+        - sweep
+
+    - `scan`: the scanner's latest line, LaserScan.
+    - `sweep` (input): how many sweeps the scanner has finished, (1,), no unit.
+    - `body_poses`: X_WB of every body, true or estimated, list[RigidTransform].
+    - `cloud`: points of the last finished sweep in W, PointCloud, m; empty before.
+    - `sweep` (output): how many sweeps are assembled, (1,), no unit.
+    """
+
+    def __init__(
+        self,
+        params: ScanAssemblerParams,
+        *,
+        beam_angles: Vector,
+        mount_body: int,
+        X_BM: RigidTransform,
+        own_boxes: Sequence[SelfFilterBox] = (),
+    ) -> None:
+        """Declares ports and the update.
+
+        Args:
+            params: margin and timing.
+            beam_angles: directions of the scanner's beams, (n,), rad.
+            mount_body: index of the body that carries the scanner's servo.
+            X_BM: pose of the servo's base in that body: x forward, y left, z up.
+            own_boxes: boxes about the robot's bodies.
+
+        Raises:
+            ValueError: a parameter is wrong.
+        """
+        super().__init__()
+        params.validate()
+        self._margin = params.margin
+        self._angles = beam_angles
+        self._mount_body = mount_body
+        self._X_BM = X_BM
+        self._boxes = tuple(own_boxes)
+        nothing = LaserScan(-math.inf, 0.0, np.zeros(0))
+        self._scan = self.DeclareAbstractInputPort("scan", AbstractValue.Make(nothing))
+        self._sweep = self.DeclareVectorInputPort("sweep", 1)
+        self._body_poses = self.DeclareAbstractInputPort(
+            "body_poses", AbstractValue.Make([RigidTransform()])
+        )
+        self._state = self.DeclareAbstractState(AbstractValue.Make(_Assembly()))
+        ticket = {self.abstract_state_ticket(self._state)}
+        calc_cloud: Callable[..., None] = timed(self, self._calc_cloud)
+        self.DeclareAbstractOutputPort(
+            "cloud",
+            lambda: AbstractValue.Make(PointCloud(0)),
+            calc_cloud,
+            prerequisites_of_calc=ticket,
+        )
+        self.DeclareVectorOutputPort(
+            "sweep", 1, timed(self, self._calc_sweep), prerequisites_of_calc=ticket
+        )
+        self.DeclarePeriodicUnrestrictedUpdateEvent(
+            params.period, params.offset, timed(self, self._update)
+        )
+
+    def _update(self, context: Context, state: State) -> None:
+        was = self._get(context)
+        scan = eval_abstract(self._scan, context, LaserScan)
+        if not scan.time > was.time:
+            return
+        body_poses = eval_abstract(self._body_poses, context, list)
+        X_WM = body_poses[self._mount_body].multiply(self._X_BM)
+        points = line_to_points(
+            scan.ranges, self._angles, X_WM.multiply(tilt_pose(scan.tilt))
+        )
+        points = remove_own_points(points, self._boxes, body_poses, self._margin)
+        now = _Assembly(scan.time, (*was.lines, points), was.cloud, was.sweeps)
+        sweeps = int(eval_vector(self._sweep, context)[0])
+        if sweeps > was.sweeps:
+            now = _Assembly(scan.time, (), now.lines, sweeps)
+        state.get_mutable_abstract_state(int(self._state)).set_value(now)
+
+    def _get(self, context: Context) -> _Assembly:
+        state: Any = context.get_abstract_state(int(self._state))
+        assembly = state.get_value()
+        assert isinstance(assembly, _Assembly)
+        return assembly
+
+    def _calc_cloud(self, context: Context, cloud: AbstractValue) -> None:
+        lines = self._get(context).cloud
+        points = np.vstack(lines) if lines else np.zeros((0, 3))
+        assembled = PointCloud(len(points))
+        assembled.mutable_xyzs()[:] = points.T
+        cloud.set_value(assembled)
+
+    def _calc_sweep(self, context: Context, sweep: BasicVector) -> None:
+        set_vector(sweep, np.array([self._get(context).sweeps], dtype=np.float64))

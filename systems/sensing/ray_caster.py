@@ -1,0 +1,137 @@
+"""What a fan of beams meets: a fixed scene, and rigid meshes that move through it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import open3d as o3d
+from pydrake.math import RigidTransform
+
+from models.solids import TriangleMesh
+from systems.ports import Vector
+from systems.values import Value
+
+
+@dataclass(frozen=True, eq=False)
+class BodyMesh(Value):
+    """The surface of a rigid body that the beams can meet."""
+
+    body_index: int
+    """Where the body's pose is in the plant's `body_poses`."""
+    vertices: Vector
+    """Corners in the body's frame, (n, 3), m."""
+    triangles: np.ndarray[Any, np.dtype[np.int64]]
+    """Indices into `vertices`, (m, 3)."""
+
+
+class RayCaster:
+    """Casts fans of beams; it is built once and never changes.
+
+    Every body has its own bounding-volume tree in its own frame, so nothing is rebuilt
+    when it moves: the beams are carried into its frame. Only those beams are cast
+    against a body that pass through its bounding sphere.
+    """
+
+    def __init__(self, scene: TriangleMesh, bodies: Sequence[BodyMesh]) -> None:
+        """Builds the trees.
+
+        Args:
+            scene: what does not move, in W.
+            bodies: what moves.
+        """
+        self._scene = _tree(scene.vertices, scene.triangles)
+        self._bodies = tuple(_Body(mesh) for mesh in bodies)
+
+    def cast(
+        self,
+        X_WL: RigidTransform,
+        angles: Vector,
+        directions: Vector,
+        body_poses: Sequence[RigidTransform],
+    ) -> Vector:
+        """Distances to the nearest surface along the beams of a fan.
+
+        Args:
+            X_WL: pose of the fan; its beams leave the origin in the xy-plane.
+            angles: directions of the beams about z, ascending, (n,), rad.
+            directions: the same as unit vectors in L, (n, 3).
+            body_poses: X_WB of every body, indexed by `BodyMesh.body_index`.
+
+        Returns:
+            True distances, (n,), m; inf where nothing is met.
+        """
+        distances = _hit(self._scene, X_WL, directions)
+        X_LW = X_WL.inverse()
+        for body in self._bodies:
+            X_LB = X_LW.multiply(body_poses[body.index])
+            for first, last in _beams_in_sphere(
+                np.array(X_LB.multiply(body.centre)), body.radius, angles
+            ):
+                near = _hit(body.tree, X_LB.inverse(), directions[first:last])
+                np.minimum(distances[first:last], near, out=distances[first:last])
+        return distances
+
+
+class _Body:
+    """A body's tree and the sphere about it."""
+
+    def __init__(self, mesh: BodyMesh) -> None:
+        self.index = mesh.body_index
+        self.tree = _tree(mesh.vertices, mesh.triangles)
+        corners = mesh.vertices[np.unique(mesh.triangles)]
+        centre: Vector = (corners.min(axis=0) + corners.max(axis=0)) / 2.0
+        self.centre = centre
+        self.radius = float(np.linalg.norm(corners - centre, axis=1).max())
+
+
+def _tree(
+    vertices: Vector, triangles: np.ndarray[Any, np.dtype[np.int64]]
+) -> o3d.t.geometry.RaycastingScene:
+    tree = o3d.t.geometry.RaycastingScene(nthreads=1)
+    tree.add_triangles(
+        o3d.core.Tensor.from_numpy(np.ascontiguousarray(vertices, dtype=np.float32)),
+        o3d.core.Tensor.from_numpy(np.ascontiguousarray(triangles, dtype=np.uint32)),
+    )
+    return tree
+
+
+def _hit(
+    tree: o3d.t.geometry.RaycastingScene, X_TL: RigidTransform, directions: Vector
+) -> Vector:
+    """Distances along directions in L, (n, 3), to a tree whose frame is T."""
+    rays = np.empty((len(directions), 6), dtype=np.float32)
+    rays[:, :3] = X_TL.translation()
+    rays[:, 3:] = directions @ X_TL.rotation().matrix().T
+    # One thread: a fan is so small that handing it out costs more than casting it.
+    cast = tree.cast_rays(o3d.core.Tensor.from_numpy(rays), nthreads=1)
+    distances: Vector = cast["t_hit"].numpy().astype(np.float64)
+    return distances
+
+
+def _beams_in_sphere(
+    p_LC: Vector, radius: float, angles: Vector
+) -> tuple[tuple[int, int], ...]:
+    """Ranges [first, last) of the beams that may pass through a sphere.
+
+    Args:
+        p_LC: the sphere's centre, (3,), m.
+        radius: its radius, m.
+        angles: directions of the beams in the xy-plane, ascending, (n,), rad.
+    """
+    if abs(p_LC[2]) >= radius:
+        return ()
+    in_plane = np.sqrt(radius**2 - p_LC[2] ** 2)
+    distance = float(np.hypot(p_LC[0], p_LC[1]))
+    if distance <= in_plane:
+        return ((0, len(angles)),)
+    middle = np.arctan2(p_LC[1], p_LC[0])
+    half = np.arcsin(in_plane / distance)
+    found = []
+    # The angles may reach to either side of +-pi, where the sphere's own wrap round.
+    for turn in (-2.0 * np.pi, 0.0, 2.0 * np.pi):
+        first = int(np.searchsorted(angles, middle + turn - half, side="left"))
+        last = int(np.searchsorted(angles, middle + turn + half, side="right"))
+        if last > first:
+            found.append((first, last))
+    return tuple(found)

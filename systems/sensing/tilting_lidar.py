@@ -1,0 +1,260 @@
+"""A laser scanner that a servo tilts to sweep a cloud, line by line."""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from pydrake.common.value import AbstractValue
+from pydrake.math import RigidTransform
+from pydrake.systems.framework import BasicVector, Context, LeafSystem, State
+
+from models.solids import TriangleMesh
+from models.validation import require_at_least, require_positive
+from systems.ports import Vector, eval_abstract, eval_vector, set_vector
+from systems.sensing.ray_caster import BodyMesh, RayCaster
+from systems.sensing.scan_geometry import beam_angles, beam_directions, tilt_pose
+from systems.timing import timed
+from systems.values import LaserScan, Value
+
+
+@dataclass(kw_only=True)
+class TiltingLidarParams:
+    """A Hokuyo UTM-30LX-EW on a tilt servo.
+
+    Angles are in degrees, as on its data sheet, so that lines and beams count out.
+    """
+
+    field_of_view_deg: float = 270.0
+    """Angle between the first and the last beam, deg (stair paper, Sec. 3)."""
+    resolution_deg: float = 0.25
+    """Angle between neighbouring beams, deg (stair paper, Sec. 3)."""
+    line_period: float = 0.025
+    """Time between lines, s (stair paper, Sec. 3)."""
+    min_range: float = 0.1
+    """Least range that is measured, m (stair paper, Sec. 3)."""
+    max_range: float = 30.0
+    """Greatest range that is measured, m (data sheet)."""
+    noise: float = 0.005
+    """Standard deviation of a range, m; real clouds of this scanner show 4 to 6 mm."""
+    tilt_start_deg: float = 30.0
+    """Tilt of the first line, deg, positive down; sees the ground 3 m ahead."""
+    tilt_end_deg: float = 90.0
+    """Tilt of the last line, deg; straight down, to see the tread next to the feet.
+    The sweep is 60 deg (stair paper, Sec. 3)."""
+    tilt_step_deg: float = 0.25
+    """Tilt between lines, deg; as fine as the beams."""
+    seed: int = 0
+    """Seed of the noise."""
+
+    def validate(self) -> None:
+        """Checks every field.
+
+        Raises:
+            ValueError: "field: reason, got x" for the first field that is wrong.
+        """
+        for item in ("field_of_view_deg", "resolution_deg", "tilt_step_deg"):
+            require_positive(item, getattr(self, item), "deg")
+        if not self.field_of_view_deg <= 360.0 - self.resolution_deg:
+            raise ValueError(
+                "field_of_view_deg: must be less than a turn by a beam, "
+                f"got {self.field_of_view_deg:g} deg"
+            )
+        _require_whole("resolution_deg", self.field_of_view_deg, self.resolution_deg)
+        require_positive("line_period", self.line_period, "s")
+        require_at_least("min_range", self.min_range, 0.0, "m")
+        if not self.min_range < self.max_range < math.inf:
+            raise ValueError(
+                f"max_range: must be finite and exceed min_range, "
+                f"got {self.max_range:g} m"
+            )
+        require_at_least("noise", self.noise, 0.0, "m")
+        require_at_least("tilt_start_deg", self.tilt_start_deg, -180.0, "deg")
+        require_at_least("tilt_end_deg", self.tilt_end_deg, -180.0, "deg")
+        if not self.tilt_end_deg > self.tilt_start_deg:
+            raise ValueError(
+                f"tilt_end_deg: must exceed tilt_start_deg, got {self.tilt_end_deg:g} "
+                "deg"
+            )
+        sweep = self.tilt_end_deg - self.tilt_start_deg
+        _require_whole("tilt_step_deg", sweep, self.tilt_step_deg)
+        require_at_least("seed", self.seed, 0)
+
+    def angles(self) -> Vector:
+        """Directions of the beams, (n,), rad; see `beam_angles`."""
+        return beam_angles(
+            math.radians(self.field_of_view_deg), math.radians(self.resolution_deg)
+        )
+
+    def tilts(self) -> Vector:
+        """Tilts of a sweep's lines, (m,), rad."""
+        sweep = self.tilt_end_deg - self.tilt_start_deg
+        lines = round(sweep / self.tilt_step_deg) + 1
+        return np.radians(np.linspace(self.tilt_start_deg, self.tilt_end_deg, lines))
+
+
+def _require_whole(item: str, total: float, step: float) -> None:
+    """Raises ValueError unless `step` goes into `total` a whole number of times."""
+    if abs(total / step - round(total / step)) > 1e-6:
+        raise ValueError(f"{item}: must divide {total:g} deg, got {step:g} deg")
+
+
+def measure(distances: Vector, line: int, params: TiltingLidarParams) -> Vector:
+    """What the scanner reports of true distances.
+
+    Args:
+        distances: true distances, (n,), m; inf where there is nothing.
+        line: how many lines were taken before; with the seed it fixes the noise.
+        params: noise and limits.
+
+    Returns:
+        Ranges, (n,), m; nan below the least range, inf beyond the greatest.
+    """
+    generator = np.random.default_rng((params.seed, line))
+    ranges: Vector = distances + params.noise * generator.standard_normal(
+        len(distances)
+    )
+    ranges[ranges < params.min_range] = np.nan
+    ranges[ranges > params.max_range] = np.inf
+    return ranges
+
+
+@dataclass(frozen=True, eq=False)
+class _Sweep(Value):
+    """How far the scanner has got."""
+
+    scan: LaserScan
+    """The latest line."""
+    lines: int = 0
+    """How many lines of the present sweep are taken; 0 between sweeps."""
+    sweeps: int = 0
+    """How many sweeps are finished."""
+    enabled: bool = False
+    """Whether `enable` was on at the last line period."""
+
+
+class TiltingLidar(LeafSystem):
+    """Sweeps a laser scanner over the scene, a line every period.
+
+    A rising edge of `enable` begins a sweep: the first line is taken at once, from the
+    first tilt, and the servo moves a step a line. A sweep that has begun is finished
+    whatever `enable` does; the next one takes another rising edge. Between sweeps the
+    servo rests where it is. Each line sees the scene and the bodies where they are
+    when it is taken, so a body that moves distorts the sweep as it would a real one.
+
+    .. pydrake_system::
+
+        name: TiltingLidar
+        input_ports:
+        - body_poses
+        - enable
+        output_ports:
+        - scan
+        - tilt
+        - sweep
+
+    - `body_poses`: X_WB of every body, list[RigidTransform], as MultibodyPlant has it.
+    - `enable`: above 0.5 asks for a sweep, (1,), no unit.
+    - `scan`: the latest line, LaserScan; before the first its time is -inf and its
+      ranges are empty.
+    - `tilt`: angle of the servo, (1,), rad.
+    - `sweep`: how many sweeps are finished, (1,), no unit; grows with the last line.
+    """
+
+    def __init__(
+        self,
+        params: TiltingLidarParams,
+        *,
+        mount_body: int,
+        X_BM: RigidTransform,
+        scene: TriangleMesh,
+        body_meshes: Sequence[BodyMesh] = (),
+    ) -> None:
+        """Declares ports and the line period; builds the trees to cast on.
+
+        Args:
+            params: scanner and servo.
+            mount_body: index of the body that carries the servo in `body_poses`.
+            X_BM: pose of the servo's base in that body: x forward, y left, z up.
+            scene: what does not move, in W.
+            body_meshes: what moves; all the robot but the scanner's own housing.
+
+        Raises:
+            ValueError: a parameter is wrong.
+        """
+        super().__init__()
+        params.validate()
+        self._params = params
+        self._mount_body = mount_body
+        self._X_BM = X_BM
+        self._tilts = params.tilts()
+        self._angles = params.angles()
+        self._directions = beam_directions(self._angles)
+        self._caster = RayCaster(scene, body_meshes)
+        self._body_poses = self.DeclareAbstractInputPort(
+            "body_poses", AbstractValue.Make([RigidTransform()])
+        )
+        self._enable = self.DeclareVectorInputPort("enable", 1)
+        nothing = LaserScan(-math.inf, float(self._tilts[0]), np.zeros(0))
+        self._state = self.DeclareAbstractState(AbstractValue.Make(_Sweep(nothing)))
+        ticket = {self.abstract_state_ticket(self._state)}
+        calc_scan: Callable[..., None] = timed(self, self._calc_scan)
+        self.DeclareAbstractOutputPort(
+            "scan",
+            lambda: AbstractValue.Make(nothing),
+            calc_scan,
+            prerequisites_of_calc=ticket,
+        )
+        self.DeclareVectorOutputPort(
+            "tilt", 1, timed(self, self._calc_tilt), prerequisites_of_calc=ticket
+        )
+        self.DeclareVectorOutputPort(
+            "sweep", 1, timed(self, self._calc_sweep), prerequisites_of_calc=ticket
+        )
+        self.DeclarePeriodicUnrestrictedUpdateEvent(
+            params.line_period, 0.0, timed(self, self._update)
+        )
+
+    def _update(self, context: Context, state: State) -> None:
+        was = self._get(context)
+        enabled = bool(eval_vector(self._enable, context)[0] > 0.5)
+        begins = was.lines == 0 and enabled and not was.enabled
+        if was.lines == 0 and not begins:
+            if enabled != was.enabled:
+                now = _Sweep(was.scan, 0, was.sweeps, enabled)
+                state.get_mutable_abstract_state(int(self._state)).set_value(now)
+            return
+        scan = self._take_line(context, was)
+        lines, sweeps = was.lines + 1, was.sweeps
+        if lines == len(self._tilts):
+            lines, sweeps = 0, sweeps + 1
+        state.get_mutable_abstract_state(int(self._state)).set_value(
+            _Sweep(scan, lines, sweeps, enabled)
+        )
+
+    def _take_line(self, context: Context, sweep: _Sweep) -> LaserScan:
+        tilt = float(self._tilts[sweep.lines])
+        body_poses = eval_abstract(self._body_poses, context, list)
+        X_WM = body_poses[self._mount_body].multiply(self._X_BM)
+        distances = self._caster.cast(
+            X_WM.multiply(tilt_pose(tilt)), self._angles, self._directions, body_poses
+        )
+        line = sweep.sweeps * len(self._tilts) + sweep.lines
+        ranges = measure(distances, line, self._params)
+        return LaserScan(context.get_time(), tilt, ranges)
+
+    def _get(self, context: Context) -> _Sweep:
+        state: Any = context.get_abstract_state(int(self._state))
+        sweep = state.get_value()
+        assert isinstance(sweep, _Sweep)
+        return sweep
+
+    def _calc_scan(self, context: Context, scan: AbstractValue) -> None:
+        scan.set_value(self._get(context).scan)
+
+    def _calc_tilt(self, context: Context, tilt: BasicVector) -> None:
+        set_vector(tilt, np.array([self._get(context).scan.tilt]))
+
+    def _calc_sweep(self, context: Context, sweep: BasicVector) -> None:
+        set_vector(sweep, np.array([self._get(context).sweeps], dtype=np.float64))
