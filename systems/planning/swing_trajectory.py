@@ -99,6 +99,8 @@ class _Swing:
     start_pitch: float
     start_yaw: float
     """From the heading, rad."""
+    way: float
+    """Horizontal distance that the toe edge travels, m."""
     end_x: float
     end_z: float
     end_pitch: float
@@ -166,6 +168,7 @@ def swing_trajectory(
         start_z=p0[2],
         start_pitch=rpy0[1],
         start_yaw=wrap(rpy0[2] - ahead),
+        way=float(np.hypot(p1[0] - p0[0], p1[1] - p0[1])),
         end_x=float((p1 - p0) @ x_W),
         end_z=p1[2],
         end_pitch=rpy1[1],
@@ -243,11 +246,10 @@ def _gentlest(swing: _Swing, params: SwingParams) -> tuple[Vector, float]:
         0 only where none keeps them, and then the least.
     """
     progress, back, z, pitch = _blends(swing, GRID, SAMPLES)
-    way = swing.end_x
     short = np.zeros(len(GRID))
     falling = GRID[:, 1:2] <= SAMPLES
     low = falling & (z - swing.end_z < params.touch_down_height)
-    left = (1.0 - progress) * abs(way)
+    left = (1.0 - progress) * swing.way
     short = np.maximum(short, np.where(low, left - 0.002, 0.0).max(axis=1))
     if len(swing.edges):
         gaps = _gaps(swing, progress, back, z, pitch)
@@ -273,7 +275,7 @@ def _gentlest(swing: _Swing, params: SwingParams) -> tuple[Vector, float]:
         [
             (swing.apex - swing.start_z) / lifted**2,
             (swing.apex - swing.end_z) / (1.0 - lowering) ** 2,
-            abs(way) / (arrival - departure) ** 2,
+            swing.way / (arrival - departure) ** 2,
         ]
     )
     kept = short <= 1e-6
