@@ -2,10 +2,13 @@
 
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from models.obstacle import BoxParams
 from models.room import RoomParams
 from models.solids import Box
 from models.staircase import StaircaseParams, Tread
+from systems.ports import Vector
 
 
 @dataclass(kw_only=True)
@@ -23,7 +26,8 @@ class SceneParams:
         """Checks what concerns more than one part; each part checks itself.
 
         Raises:
-            ValueError: two boxes have the same name.
+            ValueError: two boxes have the same name, or the staircase does not fit
+                into the room.
         """
         names = [box.name for box in self.boxes]
         for index, name in enumerate(names):
@@ -32,16 +36,39 @@ class SceneParams:
                     f"boxes[{index}].name: must be unique, got {name!r} again"
                 )
 
+        if self.staircase:
+            self._check_fit(self.staircase)
+
+    def _check_fit(self, stairs: StaircaseParams) -> None:
+        room = self.room
+        X_RS = room.X_WR().inverse().multiply(stairs.X_WS())
+        length = stairs.steps * stairs.run
+        for x in (0.0, length):
+            for y in (-stairs.width / 2.0, stairs.width / 2.0):
+                p_R: Vector = X_RS.multiply(np.array([x, y, 0.0]))
+                if abs(p_R[0]) > room.length / 2 or abs(p_R[1]) > room.width / 2:
+                    raise ValueError(
+                        "staircase: must lie inside the room, has a corner at "
+                        f"{p_R[0]:.3g} m, {p_R[1]:.3g} m from its middle"
+                    )
+        top = stairs.steps * stairs.rise
+        if not top < room.height:
+            raise ValueError(
+                f"staircase: must end below the ceiling at {room.height:g} m, "
+                f"its top tread is at {top:.3g} m"
+            )
+
     def solids(self) -> tuple[Box, ...]:
         """The room's solids, then the staircase's, then the boxes.
 
         Raises:
             ValueError: a field of the scene or of a part of it is wrong.
         """
-        self.validate()
+        room = self.room.solids()
         stairs = self.staircase.solids() if self.staircase else ()
         boxes = tuple(box.solid() for box in self.boxes)
-        return (*self.room.solids(), *stairs, *boxes)
+        self.validate()
+        return (*room, *stairs, *boxes)
 
     def treads(self) -> tuple[Tread, ...]:
         """The true treads, lowest first; empty without a staircase.

@@ -46,3 +46,23 @@ def test_wrong_box_is_refused(box: BoxParams, message: str) -> None:
     """Every field that can be wrong is refused under its name."""
     with pytest.raises(ValueError, match=message):
         SceneParams(boxes=[box]).solids()
+
+
+@pytest.mark.parametrize(
+    ("stairs", "message"),
+    [
+        (StaircaseParams(x=4.8), "inside the room, has a corner at 5.61 m, -0.25 m"),
+        (StaircaseParams(width=7.2), "staircase: must lie inside the room"),
+        (StaircaseParams(x=0, y=3.0, yaw=1.5), "staircase: must lie inside the room"),
+        (
+            StaircaseParams(steps=15),
+            "below the ceiling at 3 m, its top tread is at 3 m",
+        ),
+    ],
+)
+def test_staircase_must_fit_into_the_room(
+    stairs: StaircaseParams, message: str
+) -> None:
+    """Neither walls nor ceiling may cut it off."""
+    with pytest.raises(ValueError, match=message):
+        SceneParams(staircase=stairs).solids()

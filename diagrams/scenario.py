@@ -1,0 +1,317 @@
+"""What a scenario file holds, and reading and writing it."""
+
+import difflib
+import xml.etree.ElementTree as ET
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from importlib import resources
+from pathlib import Path
+
+from pydrake.common.yaml import yaml_dump, yaml_dump_typed, yaml_load_typed
+
+from diagrams.schema import FieldError, Mapping, check, parse_yaml, set_field, validate
+from models.jvrc1 import JVRC1
+from models.robot import RobotModel
+from models.scene import SceneParams
+from models.solids import upright_pose
+from models.validation import (
+    require_at_least,
+    require_finite,
+    require_length,
+    require_one_of,
+    require_positive,
+)
+from systems.perception.scan_assembler import ScanAssemblerParams
+from systems.perception.segmenter_params import PlaneSegmenterParams
+from systems.sensing.tilting_lidar import TiltingLidarParams
+
+ROBOTS: dict[str, RobotModel] = {"jvrc1": JVRC1}
+"""The robots that a scenario may name."""
+TASKS = ("stair_climbing",)
+"""What a robot may be asked to do."""
+MODES = ("dynamic",)
+"""How it may do it."""
+
+
+class ScenarioError(ValueError):
+    """A scenario cannot be used; the message is one line naming file and field."""
+
+
+@dataclass(kw_only=True)
+class RobotParams:
+    """The robot and where it starts."""
+
+    name: str = "jvrc1"
+    """Which robot."""
+    x: float = 0.0
+    """Midpoint of its feet along x of W, m."""
+    y: float = 0.0
+    """Midpoint of its feet along y of W, m."""
+    yaw: float = 0.0
+    """Where it faces, about z of W from its x, rad."""
+
+    def model(self) -> RobotModel:
+        """The robot's names, sole, postures and gains."""
+        return ROBOTS[self.name]
+
+    def validate(self) -> None:
+        """Checks every field.
+
+        Raises:
+            ValueError: "field: reason, got x" for the first field that is wrong.
+        """
+        require_one_of("name", self.name, tuple(ROBOTS))
+        require_finite("x", self.x, "m")
+        require_finite("y", self.y, "m")
+        require_finite("yaw", self.yaw, "rad")
+
+
+@dataclass(kw_only=True)
+class SensorsParams:
+    """What the robot senses with."""
+
+    lidar: TiltingLidarParams = field(default_factory=TiltingLidarParams)
+    """The scanner on its head. `simulation.seed` is added to its seed."""
+
+
+@dataclass(kw_only=True)
+class PushParams:
+    """A push to withstand: a constant force at a body's centre of mass."""
+
+    time: float = 5.0
+    """When it begins, s."""
+    duration: float = 0.1
+    """How long it lasts, s."""
+    force: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
+    """The force, along W's axes, N."""
+    body: str = JVRC1.torso_body
+    """The link of the robot that is pushed."""
+
+    def validate(self) -> None:
+        """Checks every field.
+
+        Raises:
+            ValueError: "field: reason, got x" for the first field that is wrong.
+        """
+        require_at_least("time", self.time, 0.0, "s")
+        require_positive("duration", self.duration, "s")
+        require_length("force", self.force, 3)
+
+
+@dataclass(kw_only=True)
+class TaskParams:
+    """What the robot is to do."""
+
+    kind: str = "stair_climbing"
+    """What: "stair_climbing", up the staircase to its top tread."""
+    mode: str = "dynamic"
+    """How: "dynamic", with a moving ZMP under a stabiliser."""
+    steps_between_scans: int = 2
+    """Footsteps between two scans: 2 scans from every tread."""
+    pushes: list[PushParams] = field(default_factory=list)
+    """Pushes on the way."""
+
+    def validate(self) -> None:
+        """Checks every field.
+
+        Raises:
+            ValueError: "field: reason, got x" for the first field that is wrong.
+        """
+        require_one_of("kind", self.kind, TASKS)
+        require_one_of("mode", self.mode, MODES)
+        require_at_least("steps_between_scans", self.steps_between_scans, 1)
+
+
+@dataclass(kw_only=True)
+class ControllerParams:
+    """The parameters of the systems, a field for each of them."""
+
+    scan_assembler: ScanAssemblerParams = field(default_factory=ScanAssemblerParams)
+    """From scan lines to a cloud."""
+    segmenter: PlaneSegmenterParams = field(default_factory=PlaneSegmenterParams)
+    """From the cloud to planes and the staircase."""
+
+
+@dataclass(kw_only=True)
+class SimulationParams:
+    """How the world is simulated."""
+
+    time_step: float = 0.002
+    """Step of the plant, s."""
+    max_time: float = 120.0
+    """When the run is given up, s of simulated time."""
+    seed: int = 0
+    """Seed of everything that is random."""
+
+    def validate(self) -> None:
+        """Checks every field.
+
+        Raises:
+            ValueError: "field: reason, got x" for the first field that is wrong.
+        """
+        require_positive("time_step", self.time_step, "s")
+        require_positive("max_time", self.max_time, "s")
+        require_at_least("seed", self.seed, 0)
+
+
+@dataclass(kw_only=True)
+class Scenario:
+    """A robot, what is around it and what it is to do."""
+
+    name: str = ""
+    """What it is called; the file's own name where the file does not say."""
+    description: str = ""
+    """One line for the list of scenarios."""
+    robot: RobotParams = field(default_factory=RobotParams)
+    """The robot and where it starts."""
+    scene: SceneParams = field(default_factory=SceneParams)
+    """What is around it."""
+    sensors: SensorsParams = field(default_factory=SensorsParams)
+    """What it senses with."""
+    task: TaskParams = field(default_factory=TaskParams)
+    """What it is to do."""
+    parameters: ControllerParams = field(default_factory=ControllerParams)
+    """How its systems do it."""
+    simulation: SimulationParams = field(default_factory=SimulationParams)
+    """How all of it is simulated."""
+
+    def lidar(self) -> TiltingLidarParams:
+        """The scanner's parameters with the seed of this run."""
+        lidar = self.sensors.lidar
+        return replace(lidar, seed=lidar.seed + self.simulation.seed)
+
+    def validate(self) -> None:
+        """Checks what concerns more than one part; each part checks itself.
+
+        Raises:
+            ValueError: "field: reason, got x" for the first field that is wrong.
+        """
+        model, room, stairs = self.robot.model(), self.scene.room, self.scene.staircase
+        start = upright_pose(self.robot.x, self.robot.y)
+        p_RStart = room.X_WR().inverse().multiply(start).translation()
+        if abs(p_RStart[0]) > room.length / 2 or abs(p_RStart[1]) > room.width / 2:
+            raise ValueError(
+                "robot: must start inside the room, "
+                f"got x {self.robot.x:g} m, y {self.robot.y:g} m"
+            )
+        if stairs is None:
+            raise ValueError(f"scene.staircase: the task {self.task.kind} needs one")
+        soles = 4.0 * model.sole.half_width
+        if stairs.width < soles:
+            raise ValueError(
+                f"scene.staircase.width: must be at least {soles:g} m, two soles of "
+                f"{model.name} abreast, got {stairs.width:g} m"
+            )
+        links = {
+            link.attrib["name"]
+            for link in ET.parse(model.urdf).getroot().findall("link")
+        }
+        for index, push in enumerate(self.task.pushes):
+            if push.body not in links:
+                close = difflib.get_close_matches(push.body, sorted(links), n=1)
+                hint = f"; did you mean {close[0]}?" if close else ""
+                raise ValueError(
+                    f"task.pushes[{index}].body: {model.name} has no link "
+                    f"{push.body!r}{hint}"
+                )
+
+
+def load_scenario(name_or_path: str | Path, overrides: Sequence[str] = ()) -> Scenario:
+    """Reads a scenario, every field checked.
+
+    Args:
+        name_or_path: name of a shipped scenario, or the path of a YAML file.
+        overrides: "KEY=VALUE" each, with a dotted key ("scene.staircase.rise=0.15",
+            "scene.boxes[0].size=[1, 1, 0.2]"); values are YAML. The last one counts.
+
+    Raises:
+        ScenarioError: it cannot be used, and why, in one line.
+    """
+    label, stem, text = _read(name_or_path)
+    applied: list[tuple[str, str]] = []
+    try:
+        data = parse_yaml(text)
+        if not isinstance(data, dict):
+            raise FieldError("", "must hold the fields of a scenario")
+        data = {key: value for key, value in data.items() if str(key)[:1] != "_"}
+        data.setdefault("name", stem)
+        check(data, Scenario)
+        for override in overrides:
+            applied.append((_override(data, override), override))
+            check(data, Scenario)
+        scenario: Scenario = yaml_load_typed(  # type: ignore[no-untyped-call]
+            schema=Scenario,
+            data=yaml_dump(data),  # type: ignore[no-untyped-call]
+        )
+        validate(scenario)
+    except FieldError as error:
+        for key, override in applied:
+            if _concerns(error.path, key):
+                label = f"{label} with --set {override}"
+        raise ScenarioError(f"{label}: {error}") from None
+    return scenario
+
+
+def save_scenario(scenario: Scenario, path: str | Path) -> None:
+    """Writes the scenario with every field resolved; it loads back equal."""
+    text = yaml_dump_typed(scenario, schema=Scenario)  # type: ignore[no-untyped-call]
+    Path(path).write_text(text, encoding="utf-8")
+
+
+def list_scenarios() -> tuple[tuple[str, str], ...]:
+    """Name and description of every shipped scenario, by name."""
+    return tuple((name, load_scenario(name).description) for name in sorted(_shipped()))
+
+
+def _shipped() -> dict[str, str]:
+    """Text of every shipped scenario by name."""
+    folder = resources.files("diagrams.scenarios")
+    return {
+        item.name.removesuffix(".yaml"): item.read_text(encoding="utf-8")
+        for item in folder.iterdir()
+        if item.name.endswith(".yaml")
+    }
+
+
+def _read(name_or_path: str | Path) -> tuple[str, str, str]:
+    """What to call the scenario in messages, its name unless it has one, its text."""
+    path, shipped = Path(name_or_path), _shipped()
+    if str(name_or_path) in shipped:
+        name = str(name_or_path)
+        return f"{name}.yaml", name, shipped[name]
+    looks_like_a_path = isinstance(name_or_path, Path) or path.parent != Path(".")
+    if not (looks_like_a_path or path.suffix or path.exists()):
+        close = difflib.get_close_matches(path.name, shipped, n=3, cutoff=0.5)
+        hint = f"did you mean {' or '.join(close)}?" if close else ""
+        hint = hint or f"there are {', '.join(sorted(shipped))}"
+        raise ScenarioError(f"{name_or_path}: no such scenario; {hint}")
+    try:
+        return str(name_or_path), path.stem, path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise ScenarioError(f"{name_or_path}: no such file") from None
+    except UnicodeDecodeError:
+        raise ScenarioError(f"{name_or_path}: not a text file in UTF-8") from None
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise ScenarioError(f"{name_or_path}: cannot be read: {reason}") from None
+
+
+def _concerns(path: str, key: str) -> bool:
+    """Whether one of two paths to a field leads through the other."""
+    short, long = sorted((path, key), key=len)
+    return bool(short) and (
+        short == long or long.startswith((f"{short}.", f"{short}["))
+    )
+
+
+def _override(data: Mapping, override: str) -> str:
+    """Applies one "KEY=VALUE" to the document and returns its key."""
+    key, found, value = override.partition("=")
+    key = key.strip()
+    if not found or not key:
+        raise ScenarioError(f"--set {override}: must read KEY=VALUE")
+    try:
+        set_field(data, key, parse_yaml(value))
+    except FieldError as error:
+        raise ScenarioError(f"--set {override}: {error}") from None
+    return key

@@ -1,0 +1,201 @@
+"""Scenarios: those that ship, reading, overriding, writing, and every error."""
+
+from dataclasses import fields
+from pathlib import Path
+
+import pytest
+
+from diagrams.scenario import (
+    Scenario,
+    ScenarioError,
+    list_scenarios,
+    load_scenario,
+    save_scenario,
+)
+
+STAIRS = "scene: {staircase: {rise: 0.1}}"
+
+
+def _message(name_or_path: str | Path, *overrides: str) -> str:
+    with pytest.raises(ScenarioError) as raised:
+        load_scenario(name_or_path, overrides)
+    message = str(raised.value)
+    assert "\n" not in message
+    return message
+
+
+def test_shipped_scenarios_are_listed_with_a_description() -> None:
+    """A line each."""
+    listed = dict(list_scenarios())
+    assert {"stairs-exp1", "stairs-exp2", "stair-24cm"} <= set(listed)
+    assert all(text and "\n" not in text for text in listed.values())
+
+
+@pytest.mark.parametrize(
+    ("name", "steps", "rise", "run", "width"),
+    [
+        ("stairs-exp1", 3, 0.20, 0.27, 0.50),
+        ("stairs-exp2", 11, 0.18, 0.265, 1.23),
+        ("stair-24cm", 1, 0.24, 0.35, 0.80),
+    ],
+)
+def test_shipped_stairs_have_the_published_dimensions(
+    name: str, steps: int, rise: float, run: float, width: float
+) -> None:
+    """Stair paper, Sec. 6."""
+    scenario = load_scenario(name)
+    stairs = scenario.scene.staircase
+    assert stairs is not None
+    assert (stairs.steps, stairs.rise, stairs.run) == (steps, rise, run)
+    assert stairs.width == width
+    assert scenario.name == name
+    assert (scenario.scene.room.length, scenario.scene.room.width) == (11.0, 7.0)
+    assert stairs.x - scenario.robot.x == pytest.approx(0.6)
+    # A robot of 1.71 m can stand on the top tread.
+    assert steps * rise + 1.9 < scenario.scene.room.height
+
+
+@pytest.mark.parametrize("name", [name for name, _ in list_scenarios()])
+def test_what_is_saved_loads_back_equal(name: str, tmp_path: Path) -> None:
+    """Every field is written, also those that the file left out."""
+    scenario = load_scenario(name, ["simulation.seed=7", "scene.room.yaw=0.1"])
+    path = tmp_path / "resolved.yaml"
+    save_scenario(scenario, path)
+    assert load_scenario(path) == scenario
+    text = path.read_text()
+    assert all(f"\n{item.name}:" in f"\n{text}" for item in fields(Scenario))
+    assert "tilt_step_deg: 0.25" in text
+
+
+def test_file_names_a_scenario_that_does_not_name_itself(tmp_path: Path) -> None:
+    """Any user's YAML works like a shipped one; roots with _ are the user's own."""
+    path = tmp_path / "attic.yaml"
+    path.write_text(f"_note: [1, 2]\n{STAIRS}\n")
+    assert load_scenario(path).name == "attic"
+    assert load_scenario(str(path), ["name=loft"]).name == "loft"
+
+
+def test_overrides_are_applied_in_order() -> None:
+    """Dotted keys, lists in flow syntax, the last one counts."""
+    scenario = load_scenario(
+        "stairs-exp1",
+        [
+            "scene.staircase.rise=0.10",
+            "scene.staircase.rise=0.15",
+            "scene.staircase.closed_risers=false",
+            "simulation.time_step=1e-3",
+            "task.pushes=[{time: 3, force: [0, 50, 0]}]",
+            "task.pushes[0].duration=0.2",
+            "scene.boxes=[{name: crate, x: -2, size: [0.3, 0.3, 0.3]}]",
+        ],
+    )
+    stairs = scenario.scene.staircase
+    assert stairs is not None
+    assert (stairs.rise, stairs.closed_risers, stairs.run) == (0.15, False, 0.27)
+    assert scenario.simulation.time_step == 0.001
+    push = scenario.task.pushes[0]
+    assert (push.time, push.duration, push.force) == (3.0, 0.2, [0.0, 50.0, 0.0])
+    assert scenario.scene.solids()[-1].name == "box/crate"
+
+
+def test_one_seed_rules_the_scanner() -> None:
+    """The run's seed moves the scanner's."""
+    scenario = load_scenario(
+        "stairs-exp1", ["simulation.seed=4", "sensors.lidar.seed=3"]
+    )
+    assert scenario.lidar().seed == 7
+    assert scenario.sensors.lidar.seed == 3
+
+
+@pytest.mark.parametrize(
+    ("override", "message"),
+    [
+        ("scene.staircase.rize=1", "scene.staircase.rize: no such field; did you mean"),
+        ("scene.stairs.rise=1", "scene.stairs: no such field; did you mean staircase?"),
+        ("scene.staircase.rise=-0.2", "scene.staircase.rise: must be positive, got -0"),
+        ("scene.staircase.rise=.nan", "scene.staircase.rise: must be finite, got nan"),
+        ("scene.staircase.rise=high", "scene.staircase.rise: must be a number, got 'h"),
+        ("scene.staircase.steps=0", "scene.staircase.steps: must be at least 1, got 0"),
+        ("scene.staircase.width=0.1", "scene.staircase.width: must be at least 0.168"),
+        ("scene.staircase.x=5", "scene.staircase: must lie inside the room"),
+        ("scene.staircase=null", "scene.staircase: the task stair_climbing needs one"),
+        ("scene.room.height=0", "scene.room.height: must be positive, got 0 m"),
+        ("scene.boxes=[{size: [1]}]", "scene.boxes[0].size: must have 3 elements, got"),
+        ("sensors.lidar.noise=-1", "sensors.lidar.noise: must be at least 0 m, got -1"),
+        ("parameters.segmenter.voxel_size=0", "parameters.segmenter.voxel_size: must "),
+        ("robot.name=hrp4", "robot.name: must be one of jvrc1, got 'hrp4'"),
+        ("robot.x=20", "robot: must start inside the room, got x 20 m, y 0 m"),
+        ("task.kind=fly", "task.kind: must be one of stair_climbing, got 'fly'"),
+        ("task.mode=fast", "task.mode: must be one of dynamic, got 'fast'"),
+        ("task.steps_between_scans=0", "task.steps_between_scans: must be at least 1"),
+        ("task.pushes=[{body: HEAD}]", "task.pushes[0].body: jvrc1 has no link 'HEAD'"),
+        ("task.pushes=[{force: [1]}]", "task.pushes[0].force: must have 3 elements, g"),
+        ("simulation.time_step=0", "simulation.time_step: must be positive, got 0 s"),
+        ("simulation.seed=-1", "simulation.seed: must be at least 0, got -1"),
+    ],
+)
+def test_wrong_override_is_refused_under_its_field(override: str, message: str) -> None:
+    """File, override and field are all named."""
+    assert _message("stairs-exp1", override).startswith(
+        f"stairs-exp1.yaml with --set {override}: {message}"
+    )
+
+
+@pytest.mark.parametrize(
+    ("override", "message"),
+    [
+        ("scene.staircase.rise", "must read KEY=VALUE"),
+        ("=3", "must read KEY=VALUE"),
+        ("scene.room.length.x=3", "scene.room.length: has no fields"),
+        ("task.pushes=[{", "line 1: not YAML: "),
+    ],
+)
+def test_override_that_cannot_be_read_is_refused(override: str, message: str) -> None:
+    """The override itself is named."""
+    assert _message("stairs-exp1", override).startswith(f"--set {override}: {message}")
+
+
+def test_only_the_override_that_is_wrong_is_named() -> None:
+    """Others that were given with it are not."""
+    message = _message("stairs-exp1", "robot.y=0.1", "scene.staircase.rise=-1")
+    assert message.startswith("stairs-exp1.yaml with --set scene.staircase.rise=-1: ")
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("stairs-exp", "stairs-exp: no such scenario; did you mean stairs-exp"),
+        ("kitchen", "kitchen: no such scenario; there are "),
+    ],
+)
+def test_unknown_name_is_refused_with_close_matches(name: str, message: str) -> None:
+    """Someone who mistypes a name gets the right one."""
+    assert _message(name).startswith(message)
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (None, "no such file"),
+        (b"", "must hold the fields of a scenario"),
+        (b"- 1", "must hold the fields of a scenario"),
+        (b"scene: [", "line 1: not YAML: "),
+        (b"\xff\xfe\x00", "not a text file in UTF-8"),
+        (b"scene: {staircase: {rize: 1}}", "scene.staircase.rize: no such field; did"),
+        (b"robot: 7", "robot: must hold fields, got 7"),
+        (b"name: a\nname: b", "line 2: not YAML: the key 'name' occurs twice"),
+    ],
+)
+def test_wrong_file_is_refused_under_its_path(
+    content: bytes | None, message: str, tmp_path: Path
+) -> None:
+    """The path is named as it was given."""
+    path = tmp_path / "stairs.yaml"
+    if content is not None:
+        path.write_bytes(content)
+    assert _message(str(path)).startswith(f"{path}: {message}")
+
+
+def test_folder_is_refused(tmp_path: Path) -> None:
+    """A folder is no scenario."""
+    assert _message(tmp_path) == f"{tmp_path}: cannot be read: is a directory"
