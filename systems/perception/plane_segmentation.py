@@ -234,7 +234,15 @@ def find_treads(
     if not chosen:
         return [], 0.0, [], floor_below(patches, [], limits)
     yaw, treads = refine_treads([patches[i] for i in chosen], cloud, viewpoint)
-    if params.staircase_from == "chain" and not treads[0].drops:
+    if params.staircase_from == "size_cluster":
+        return chosen, yaw, treads, floor_below(patches, chosen, limits)
+    if len(treads) > 1 and not treads[-1].ends:
+        # Of a tread, or a landing, that the view cuts off the size is unknown.
+        depths = [float(tread.high[0] - tread.low[0]) for tread in treads]
+        usual = float(np.median(depths[:-1]))
+        if abs(depths[-1] - usual) > limits.depth_tolerance * usual:
+            chosen, treads = chosen[:-1], treads[:-1]
+    if not treads[0].drops:
         # Where nothing lower was seen before it, its end in the cloud is that of the
         # view, not its edge: the floor, or the tread that the robot stands on.
         return chosen[1:], yaw, treads[1:], chosen[0]

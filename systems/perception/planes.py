@@ -88,7 +88,8 @@ def ransac_planes(
                 break
             planes.append(plane)
             distance = (points[left] - plane.point) @ plane.normal
-            left = left[np.abs(distance) > tolerance]
+            # What is nearer than this is noise of the plane, not a plane beside it.
+            left = left[np.abs(distance) > 2.0 * tolerance]
     return tuple(planes)
 
 

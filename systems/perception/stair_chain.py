@@ -33,6 +33,9 @@ class StairLimits:
     """Largest rise from a tread to the next, m: the paper climbs 0.24."""
     max_turn: float = 0.35
     """Most that the way to the next tread departs from a tread's own axis, rad."""
+    depth_tolerance: float = 0.06
+    """How much the depth of a last tread whose end was not seen may depart from that
+    of the others, as a part of it: else the end is that of the view."""
     size_tolerance: float = 0.1
     """Distance below which two sizes (dx, dy) are of one cluster, m; the paper names
     the clustering, not its distance."""

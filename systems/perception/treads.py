@@ -6,7 +6,7 @@ the next face stands, the ends and an edge without face where the points end.
 All of it in a frame G whose z points up.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy import ndimage
@@ -16,14 +16,14 @@ from systems.ports import Vector
 
 SLAB = 0.015
 """Points this near to a tread's plane belong to it, m: three times the range noise of
-5 mm."""
+5 mm; where there is more noise, up to twice as much."""
 BIN = 0.03
 """Width of the strips in which the end of a tread is looked for, m."""
 CELL = 0.04
 """Cell in which points of one tread hang together, m: far lines are this far apart."""
 OVERHANG = 0.012
-"""A tread that ends this far before the face below it overhangs it, m; less may be
-noise."""
+"""A tread that ends this far before the face below it overhangs it, m; less may be the
+noise of its own end."""
 MIN_FACE_POINTS = 25
 """Fewer points do not make a face."""
 
@@ -44,6 +44,9 @@ class Tread:
     """Supporting points in S, (n, 3), m."""
     drops: bool
     """Whether something lower was seen before its front edge."""
+    ends: bool
+    """Whether a face was seen at its back edge, or, of the last tread, something
+    farther away behind it."""
 
 
 def stair_rotation(yaw: float) -> Vector:
@@ -113,7 +116,21 @@ def refine_treads(
         yaw = float(yaw - np.arctan(slope))
     rotation = stair_rotation(yaw)
     local = near @ rotation
-    return yaw, [_bound(patch, local, rotation) for patch in patches]
+    treads = [_bound(patch, local, rotation) for patch in patches]
+    treads[-1] = replace(treads[-1], ends=_is_seen_past(treads[-1], cloud, rotation))
+    return yaw, treads
+
+
+def _is_seen_past(tread: Tread, cloud: Vector, rotation: Vector) -> bool:
+    """Whether the view goes on behind the tread, so that its end is its own."""
+    if tread.ends:
+        return True
+    local = cloud @ rotation
+    past = (local[:, 0] > tread.high[0] + BIN) & (local[:, 1] > tread.low[1])
+    past &= (local[:, 1] < tread.high[1]) & (
+        (local - tread.point) @ tread.normal < -SLAB
+    )
+    return bool(np.count_nonzero(past) >= MIN_FACE_POINTS)
 
 
 def _near(patches: list[Patch], cloud: Vector) -> Vector:
@@ -127,18 +144,21 @@ def _bound(patch: Patch, local: Vector, rotation: Vector) -> Tread:
     core = patch.points @ rotation
     point, normal = patch.plane.point @ rotation, patch.plane.normal @ rotation
     off = (local - point) @ normal
-    slab = _hanging_together(local[np.abs(off) <= SLAB], core)
+    noise = 1.4826 * float(np.median(np.abs((core - point) @ normal)))
+    thickness = min(max(3.0 * noise, SLAB), 2.0 * SLAB)
+    slab = _hanging_together(local[np.abs(off) <= thickness], core)
     x, y = slab[:, 0], slab[:, 1]
     right, left = -_strip_end(x, -y), _strip_end(x, y)
     front, back = -_strip_end(y, -x), _strip_end(y, x)
     inside = (local[:, 1] > right + BIN) & (local[:, 1] < left - BIN)
-    face = inside & (off < -SLAB) & (off > -0.10)
+    face = inside & (off < -thickness) & (off > -0.10)
     standing, found = _face(local[face, 0], front)
-    # A nosing overhangs its riser; the noise of the tread's own end is no overhang.
-    front = standing if found and front > standing - OVERHANG else front
-    riser = inside & (off > SLAB) & (off < 0.10)
-    standing, found = _face(local[riser, 0], back)
-    back = standing if found else back
+    # A nosing overhangs its riser: then the tread's own end counts.
+    overhang = max(OVERHANG, 0.8 * thickness)
+    front = standing if found and front > standing - overhang else front
+    riser = inside & (off > thickness) & (off < 0.10)
+    standing, ends = _face(local[riser, 0], back)
+    back = standing if ends else back
     before = inside & (off < -0.03) & (local[:, 0] < front + BIN)
     drops = np.count_nonzero(before & (local[:, 0] > front - 0.25)) >= MIN_FACE_POINTS
     # The rim is mixed with points of the faces, which would tilt and lift the plane.
@@ -152,6 +172,7 @@ def _bound(patch: Patch, local: Vector, rotation: Vector) -> Tread:
         normal=normal,
         points=slab,
         drops=bool(drops),
+        ends=bool(ends),
     )
 
 
@@ -204,8 +225,11 @@ def _common_slope(treads: list[Tread], local: Vector) -> float:
         face &= (local[:, 1] > low[1]) & (local[:, 1] < high[1])
         if np.count_nonzero(face) >= MIN_FACE_POINTS:
             x, y = local[face, 0], local[face, 1]
-        else:
+        elif tread.drops:
             x, y = _front_line(tread)
+        else:
+            # It ends along a line of the scanner, not along its edge.
+            continue
         kept = np.ones(len(x), dtype=bool)
         slope = 0.0
         for _ in range(4):

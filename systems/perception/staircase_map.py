@@ -1,0 +1,108 @@
+"""What is known of a staircase, scan after scan."""
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from pydrake.common.value import AbstractValue
+from pydrake.systems.framework import (
+    BasicVector,
+    Context,
+    EventStatus,
+    LeafSystem,
+    State,
+)
+
+from systems.perception.staircase_merging import StaircaseMapParams, merge_staircase
+from systems.ports import eval_abstract, eval_vector, set_vector
+from systems.timing import timed
+from systems.values import PlaneSegmentation, Staircase, Value
+
+
+@dataclass(frozen=True, eq=False)
+class _Merged(Value):
+    """The state: the staircase and how many sweeps are in it."""
+
+    staircase: Staircase = field(default_factory=Staircase)
+    sweeps: int = 0
+
+
+class StaircaseMap(LeafSystem):
+    """Remembers the staircase over the scans of a robot that climbs it.
+
+    Stair paper (Zhang, Caron, Nakamura 2016), Sec. 4.3: the higher steps "will be fully
+    reconstructed after the robot stepping on the lower ones".
+
+    .. pydrake_system::
+
+        name: StaircaseMap
+        input_ports:
+        - segmentation
+        - sweep
+        output_ports:
+        - staircase
+        - sweep
+
+    - `segmentation`: PlaneSegmentation of the last finished sweep, in W.
+    - `sweep` (input): how many sweeps are finished, (1,).
+    - `staircase`: Staircase, what all merged sweeps say, in W.
+    - `sweep` (output): how many sweeps were finished when it was last merged, (1,).
+    """
+
+    def __init__(self, params: StaircaseMapParams | None = None) -> None:
+        """Declares ports, state and the update.
+
+        Args:
+            params: parameters; None for the defaults.
+
+        Raises:
+            ValueError: a parameter makes no sense.
+        """
+        super().__init__()
+        self._params = params or StaircaseMapParams()
+        self._params.validate()
+        self._segmentation = self.DeclareAbstractInputPort(
+            "segmentation", AbstractValue.Make(PlaneSegmentation())
+        )
+        self._sweep = self.DeclareVectorInputPort("sweep", 1)
+        self._state = self.DeclareAbstractState(AbstractValue.Make(_Merged()))
+        ticket = {self.abstract_state_ticket(self._state)}
+        self.DeclareAbstractOutputPort(
+            "staircase",
+            lambda: AbstractValue.Make(Staircase()),
+            timed(self, self._calc_staircase),  # type: ignore[arg-type]
+            prerequisites_of_calc=ticket,
+        )
+        self.DeclareVectorOutputPort(
+            "sweep",
+            1,
+            timed(self, self._calc_sweep),
+            prerequisites_of_calc=ticket,
+        )
+        self.DeclarePeriodicUnrestrictedUpdateEvent(
+            self._params.period,
+            0.0,
+            timed(self, self._merge),
+        )
+
+    def _merge(self, context: Context, state: State) -> EventStatus:
+        was = self._get(context)
+        sweeps = int(eval_vector(self._sweep, context)[0])
+        if not sweeps > was.sweeps:
+            return EventStatus.DidNothing()
+        seen = eval_abstract(self._segmentation, context, PlaneSegmentation)
+        now = _Merged(merge_staircase(was.staircase, seen, self._params), sweeps)
+        state.get_mutable_abstract_state(int(self._state)).set_value(now)
+        return EventStatus.Succeeded()
+
+    def _get(self, context: Context) -> _Merged:
+        held: Any = context.get_abstract_state(int(self._state))
+        merged = held.get_value()
+        assert isinstance(merged, _Merged)
+        return merged
+
+    def _calc_staircase(self, context: Context, staircase: AbstractValue) -> None:
+        staircase.set_value(self._get(context).staircase)
+
+    def _calc_sweep(self, context: Context, sweep: BasicVector) -> None:
+        set_vector(sweep, np.array([self._get(context).sweeps], dtype=np.float64))
