@@ -8,10 +8,13 @@ import numpy as np
 import pytest
 from pydrake.common.value import AbstractValue
 from pydrake.math import RigidTransform
+from pydrake.multibody.plant import MultibodyPlant
+from pydrake.multibody.tree import SpatialInertia
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import DiagramBuilder
 from pydrake.systems.primitives import (
     ConstantValueSource,
+    ConstantVectorSource,
     TrajectorySource,
 )
 from pydrake.trajectories import PiecewisePolynomial
@@ -159,3 +162,35 @@ def test_wrong_parameter_is_named(change: dict[str, Any], message: str) -> None:
     """Every field that can be wrong is refused under its name."""
     with pytest.raises(ValueError, match=message):
         replace(TiltingLidarParams(), **change).validate()
+
+
+def test_scanner_rides_on_a_body_of_a_plant() -> None:
+    """The plant's own body_poses port fits; a falling scanner sees the floor near."""
+    builder = DiagramBuilder()
+    plant = builder.AddSystem(MultibodyPlant(time_step=0.001))
+    body = plant.AddRigidBody("head", SpatialInertia.SolidSphereWithMass(1.0, 0.1))
+    plant.Finalize()
+    params = TiltingLidarParams(
+        noise=0.0, tilt_start_deg=85.0, tilt_end_deg=90.0, tilt_step_deg=0.5
+    )
+    lidar = builder.AddSystem(
+        TiltingLidar(
+            params,
+            mount_body=int(body.index()),
+            X_BM=RigidTransform(),
+            scene=triangle_mesh(RoomParams().solids()),
+        )
+    )
+    enable = builder.AddSystem(ConstantVectorSource([1.0]))
+    builder.Connect(
+        plant.get_body_poses_output_port(), lidar.GetInputPort("body_poses")
+    )
+    builder.Connect(enable.get_output_port(), lidar.GetInputPort("enable"))
+    simulator = Simulator(builder.Build())
+    context = plant.GetMyMutableContextFromRoot(simulator.get_mutable_context())
+    plant.SetFreeBodyPose(context, body, upright_pose(z=2.5))
+    simulator.AdvanceTo(0.26)
+    scan, tilt, sweep = _outputs(lidar, simulator)
+    assert (np.degrees(tilt), sweep) == (pytest.approx(90.0), 1)
+    # A step of the plant is taken after the line of the same instant.
+    assert scan.ranges[540] == pytest.approx(2.5 - 9.81 / 2.0 * 0.25**2, abs=5e-3)
