@@ -1,0 +1,127 @@
+"""Convex polygons in the plane: from half planes, and how far inside a point is."""
+
+import numpy as np
+
+from systems.ports import Vector
+
+_TOUCH = 1e-12
+"""How far outside a half plane counts as on its edge, m."""
+
+
+def clip_square(normals: Vector, offsets: Vector, half_side: float) -> Vector:
+    """The part of a square about the origin that lies in all half planes.
+
+    Cuts the worst violated corner off until none is violated: as many cuts as the
+    result has edges or a few more, however many half planes there are.
+
+    Args:
+        normals: unit normals, (k, 2).
+        offsets: (k,), m; a half plane is n p <= offset.
+        half_side: half the side of the square, m.
+
+    Returns:
+        Vertices, (n, 2), m, counter-clockwise; (0, 2) where nothing is left.
+    """
+    r = half_side
+    vertices = [(-r, -r), (r, -r), (r, r), (-r, r)]
+    while vertices:
+        outside = normals @ np.array(vertices).T - offsets[:, None]
+        worst = outside.max(axis=1, initial=-np.inf)
+        violated = worst > _TOUCH
+        if not violated.any():
+            break
+        # A half plane that holds everywhere goes on to hold on what is left.
+        cut = outside[worst.argmax()].tolist()
+        violated[worst.argmax()] = False
+        normals, offsets = normals[violated], offsets[violated]
+        vertices = _cut(vertices, cut)
+    return simplified(np.array(vertices).reshape(-1, 2))
+
+
+def _cut(
+    vertices: list[tuple[float, float]], outside: list[float]
+) -> list[tuple[float, float]]:
+    """The polygon without the side on which `outside`, one a vertex, is positive."""
+    kept = []
+    for i, (x, y) in enumerate(vertices):
+        d, d_next = outside[i], outside[i + 1 - len(vertices)]
+        if d <= 0.0:
+            kept.append((x, y))
+        if (d < 0.0 < d_next) or (d_next < 0.0 < d):
+            x_next, y_next = vertices[i + 1 - len(vertices)]
+            t = d / (d - d_next)
+            kept.append((x + t * (x_next - x), y + t * (y_next - y)))
+    return kept
+
+
+def simplified(vertices: Vector, tolerance: float = 1e-10) -> Vector:
+    """The polygon without vertices that repeat one or lie on a straight edge.
+
+    Args:
+        vertices: (n, 2), m, counter-clockwise.
+        tolerance: what counts as the same place, m.
+
+    Returns:
+        The remaining vertices, in order; one for a point, two for a segment.
+    """
+    kept = list(vertices)
+    i = 0
+    while len(kept) > 1 and i < len(kept):
+        a, b, c = kept[i - 1], kept[i], kept[(i + 1) % len(kept)]
+        chord = c - a
+        length = float(np.hypot(*chord))
+        to_b = b - a
+        if float(np.hypot(*to_b)) <= tolerance or (
+            len(kept) > 2
+            and abs(chord[0] * to_b[1] - chord[1] * to_b[0]) <= tolerance * length
+            and 0.0 <= chord @ to_b <= length**2
+        ):
+            del kept[i]
+            i = max(i - 1, 0)
+        else:
+            i += 1
+    return np.array(kept).reshape(-1, 2)
+
+
+def signed_margin(vertices: Vector, point: Vector) -> float:
+    """How far a point is inside a convex polygon.
+
+    Args:
+        vertices: (n, 2), m, counter-clockwise; one is a point, two a segment.
+        point: (2,), m.
+
+    Returns:
+        Distance to the nearest edge, m, positive inside; minus the distance to the
+        polygon outside; minus infinity where there is no polygon.
+    """
+    if len(vertices) == 0:
+        return float("-inf")
+    edges = np.roll(vertices, -1, axis=0) - vertices
+    to_point = point - vertices
+    squared = (edges**2).sum(axis=1)
+    along = (to_point * edges).sum(axis=1) / np.where(squared > 0.0, squared, 1.0)
+    nearest = to_point - np.clip(along, 0.0, 1.0)[:, None] * edges
+    distance = float(np.sqrt((nearest**2).sum(axis=1).min()))
+    cross = edges[:, 0] * to_point[:, 1] - edges[:, 1] * to_point[:, 0]
+    inside = len(vertices) > 2 and bool((cross >= 0.0).all())
+    return distance if inside else -distance
+
+
+def area(vertices: Vector) -> float:
+    """The area of a polygon, (n, 2), counter-clockwise, m^2."""
+    x, y = vertices.T
+    return float(0.5 * (x @ np.roll(y, -1) - y @ np.roll(x, -1)))
+
+
+def hausdorff_distance(a: Vector, b: Vector) -> float:
+    """The farthest that either convex polygon, (n, 2), reaches from the other, m.
+
+    Infinity where one of them is empty and the other is not.
+    """
+    if len(a) == 0 or len(b) == 0:
+        return 0.0 if len(a) == len(b) else float("inf")
+    return max(
+        max(-signed_margin(b, vertex) for vertex in a),
+        max(-signed_margin(a, vertex) for vertex in b),
+        0.0,
+    )
