@@ -6,6 +6,8 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 import pandas as pd
+from pydrake.multibody.plant import MultibodyPlant
+from pydrake.multibody.tree import ModelInstanceIndex
 from pydrake.systems.framework import Context
 
 from diagrams.task_diagram import TaskDiagram
@@ -93,10 +95,10 @@ def gather(
         stop=stop,
         stop_reason=stop_reason,
         motion=true_motion(task.plant, task.robot_instance, task.robot, time, state),
-        joint_velocities=_joint_velocities(task, state),
+        joint_velocities=joint_velocities(task.plant, task.robot_instance, state),
         frames=frames,
         treads=task.scene.treads(),
-        limits=robot_limits(task),
+        limits=robot_limits(task.plant, task.robot_instance),
         touches=touches[-1].touches if touches else None,
         activities=tuple(activities) or None,
         segmentations=tuple(
@@ -107,9 +109,8 @@ def gather(
     )
 
 
-def robot_limits(task: TaskDiagram) -> Limits:
+def robot_limits(plant: MultibodyPlant, instance: ModelInstanceIndex) -> Limits:
     """The robot's limits as its description has them, and its weight."""
-    plant, instance = task.plant, task.robot_instance
     actuators = [
         plant.get_joint_actuator(index)
         for index in plant.GetJointActuatorIndices(instance)
@@ -126,9 +127,16 @@ def robot_limits(task: TaskDiagram) -> Limits:
     )
 
 
-def _joint_velocities(task: TaskDiagram, state: Vector) -> dict[str, Vector]:
-    """The velocity of every actuated joint, (n,) each, rad/s."""
-    plant, instance = task.plant, task.robot_instance
+def joint_velocities(
+    plant: MultibodyPlant, instance: ModelInstanceIndex, state: Vector
+) -> dict[str, Vector]:
+    """The velocity of every actuated joint, (n,) each, rad/s.
+
+    Args:
+        plant: the finalised plant.
+        instance: the robot in it.
+        state: positions, then velocities of the robot, (n, nq + nv).
+    """
     names = plant.GetVelocityNames(instance, False, False)
     joints = {
         plant.get_joint_actuator(index).joint().name()

@@ -18,10 +18,10 @@ import numpy as np
 import pandas as pd
 import pyarrow as pa  # type: ignore[import-untyped]
 import pyarrow.parquet as pq  # type: ignore[import-untyped]
-from pydrake.common.yaml import yaml_load_file
 from pydrake.systems.framework import Context, DiagramBuilder, OutputPort
 from pydrake.systems.primitives import VectorLogSink
 
+from diagrams.scenario import Scenario, load_scenario
 from systems.value_log_sink import LoggedValue, ValueLogSink
 from systems.values import Json, to_json
 
@@ -231,10 +231,9 @@ class Run:
         return cast(dict[str, Json], json.loads(text))
 
     @cached_property
-    def scenario(self) -> dict[str, Json]:
-        """The scenario as it was run, every field resolved, as plain data."""
-        data = yaml_load_file(str(self.folder / SCENARIO_FILE))  # type: ignore[no-untyped-call]
-        return cast(dict[str, Json], data)
+    def scenario(self) -> Scenario:
+        """The scenario as it was run, every field resolved."""
+        return load_scenario(self.folder / SCENARIO_FILE)
 
     @cached_property
     def signals(self) -> SignalFrames:

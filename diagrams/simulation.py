@@ -14,6 +14,7 @@ from pydrake.systems.framework import Context
 
 from diagrams.evidence import Stop, gather
 from diagrams.outcome import has_fallen, judge
+from diagrams.scenario import Scenario, save_scenario
 from diagrams.signals import SCENARIO_FILE, SIGNALS_FOLDER, SUMMARY_FILE
 from diagrams.summary import (
     Summary,
@@ -24,26 +25,13 @@ from diagrams.summary import (
 from diagrams.task_diagram import TaskDiagram
 from systems.values import FEET
 
+SETTLE_TIME = 0.5
+"""For how long a finished task is watched on, s."""
 SLICE = 0.05
 """How long the simulation runs between two looks at how it goes, s."""
 TRACEBACK_FILE = "traceback.txt"
 Progress: TypeAlias = Callable[[float, str], None]
 """Is told the simulated time, s, and what the executive is doing."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class RunSettings:
-    """How a task is run."""
-
-    scenario: str
-    """Its name."""
-    seed: int
-    time_limit: float
-    """When to give up, s of simulated time."""
-    settle_time: float = 0.5
-    """For how long a finished task is watched on, s."""
-    realtime_rate: float = 0.0
-    """Upper bound of simulated over wall time; 0 runs as fast as it can."""
 
 
 @dataclass(frozen=True)
@@ -62,10 +50,10 @@ class Simulated:
 
 def run_task(
     task: TaskDiagram,
-    settings: RunSettings,
+    scenario: Scenario,
     folder: Path,
-    save_scenario: Callable[[Path], None],
     progress: Progress | None = None,
+    realtime_rate: float = 0.0,
 ) -> Summary:
     """Simulates a task and writes its run folder, however the simulation stops.
 
@@ -73,10 +61,11 @@ def run_task(
 
     Args:
         task: the closed loop.
-        settings: how to run it.
+        scenario: what it was built from.
         folder: where the run goes; must not exist, or be empty.
-        save_scenario: writes the fully resolved scenario to the path it is given.
         progress: is called every `SLICE` of simulated time.
+        realtime_rate: upper bound of simulated over wall time; 0 runs as fast as it
+            can.
 
     Raises:
         FileExistsError: the folder exists and is not empty.
@@ -87,10 +76,12 @@ def run_task(
     partial = folder.with_name(f".{folder.name}.partial-{os.getpid()}")
     partial.mkdir()
     try:
-        save_scenario(partial / SCENARIO_FILE)
-        simulated = simulate(task, settings, progress)
+        save_scenario(scenario, partial / SCENARIO_FILE)
+        simulated = simulate(
+            task, scenario.simulation.max_time, progress, realtime_rate
+        )
         task.signals.write(simulated.context, partial / SIGNALS_FOLDER)
-        summary = summarize(task, settings, simulated)
+        summary = summarize(task, scenario, simulated)
         summary.write(partial / SUMMARY_FILE)
         if simulated.error is not None:
             text = "".join(traceback.format_exception(simulated.error))
@@ -102,20 +93,25 @@ def run_task(
 
 
 def simulate(
-    task: TaskDiagram, settings: RunSettings, progress: Progress | None = None
+    task: TaskDiagram,
+    max_time: float,
+    progress: Progress | None = None,
+    realtime_rate: float = 0.0,
 ) -> Simulated:
     """Simulates until the task is over, the robot fell, time is up or Ctrl-C.
+
+    A task that is finished is watched for `SETTLE_TIME` more.
 
     An exception, of the contact solver or of a System, ends the simulation like a
     fall does; what was logged until then is kept.
     """
     simulator = Simulator(task.diagram)
-    simulator.set_target_realtime_rate(settings.realtime_rate)
+    simulator.set_target_realtime_rate(realtime_rate)
     context = simulator.get_mutable_context()
     watch = _FallWatch(task, context)
-    end, finished = settings.time_limit, False
+    end, finished = max_time, False
     stop: Stop = "time limit"
-    reason = f"not done after {settings.time_limit:g} s"
+    reason = f"not done after {max_time:g} s"
     error: BaseException | None = None
     start = perf_counter()
     try:
@@ -132,7 +128,7 @@ def simulate(
                 stop, reason = "infeasible", status.reason
                 break
             if status.state == "finished" and not finished:
-                finished, end = True, context.get_time() + settings.settle_time
+                finished, end = True, context.get_time() + SETTLE_TIME
                 stop, reason = "finished", status.reason
     except KeyboardInterrupt as interrupt:
         stop, reason = "interrupted", f"interrupted at {context.get_time():.2f} s"
@@ -176,16 +172,14 @@ class _FallWatch:
         return has_fallen(self._height(), self._initial, up)
 
 
-def summarize(
-    task: TaskDiagram, settings: RunSettings, simulated: Simulated
-) -> Summary:
+def summarize(task: TaskDiagram, scenario: Scenario, simulated: Simulated) -> Summary:
     """Judges a simulation that has stopped and gathers what its summary says."""
     evidence = gather(task, simulated.context, simulated.stop, simulated.reason)
     simulated_time = simulated.context.get_time()
     return Summary(
         **asdict(judge(evidence)),
-        scenario=settings.scenario,
-        seed=settings.seed,
+        scenario=scenario.name,
+        seed=scenario.simulation.seed,
         simulated_time_s=simulated_time,
         wall_time_s=simulated.wall_time,
         real_time_factor=simulated_time / simulated.wall_time or None,

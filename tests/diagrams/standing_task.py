@@ -1,7 +1,5 @@
 """A task that any machine can run in a second: the robot stands, a clock ends it."""
 
-from pathlib import Path
-
 import numpy as np
 from pydrake.common.value import Value
 from pydrake.math import RigidTransform
@@ -9,12 +7,14 @@ from pydrake.multibody.plant import AddMultibodyPlant, MultibodyPlantConfig
 from pydrake.systems.framework import Context, DiagramBuilder, LeafSystem
 from pydrake.systems.primitives import ConstantVectorSource
 
+from diagrams.scenario import Scenario, SimulationParams
 from diagrams.signals import SignalRecorder
 from diagrams.task_diagram import TaskDiagram
 from models.jvrc1 import JVRC1
 from models.robot_loader import add_robot, is_sole
 from models.scene import SceneParams
 from models.solids import add_solids
+from models.staircase import StaircaseParams
 from systems.sensing.contact_monitor import ContactMonitor, watched_geometry
 from systems.timing import timed
 from systems.values import TaskStatus
@@ -147,6 +147,10 @@ def standing_task(
     )
 
 
-def save_scenario(path: Path) -> None:
-    """Stands in for the real thing."""
-    path.write_text("name: standing\n")
+def standing_scenario(max_time: float = 1.0, seed: int = 0) -> Scenario:
+    """The scenario that goes with it (the staircase stands out of reach)."""
+    return Scenario(
+        name="standing",
+        scene=SceneParams(staircase=StaircaseParams(x=2.0)),
+        simulation=SimulationParams(max_time=max_time, seed=seed),
+    )

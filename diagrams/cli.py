@@ -1,0 +1,342 @@
+"""The command `footfall`."""
+
+import logging
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+# What simulates takes seconds to import; every command imports what it needs, so that
+# the help text comes at once.
+if TYPE_CHECKING:
+    from diagrams.scenario import Scenario
+    from diagrams.summary import Summary
+    from systems.ports import Vector
+
+RUNS_FOLDER = Path("runs")
+"""Where runs go by default."""
+DONE, NOT_DONE, BAD_INPUT = 0, 1, 2
+"""Exit status: the task was done, it was not, it could not be understood."""
+
+
+class OptionError(ValueError):
+    """An option cannot be understood; the message is one line that names it."""
+
+
+app = typer.Typer(
+    name="footfall",
+    help="Humanoids that see stairs, obstacles and clutter, and walk them, simulated "
+    "closed loop with Drake.",
+    epilog="Exit status: 0 the task was done; 1 it was not (fell, infeasible, timed "
+    "out); 2 bad input.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+ScenarioArgument = Annotated[
+    str,
+    typer.Argument(
+        metavar="SCENARIO", help="Name of a shipped scenario, or a YAML file."
+    ),
+]
+RunArgument = Annotated[
+    Path, typer.Argument(metavar="RUN", help="A run folder that `run` has written.")
+]
+SetOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="KEY=VALUE",
+        help="Change a field of the scenario, e.g. scene.staircase.rise=0.18. "
+        "May be given several times.",
+    ),
+]
+
+
+@app.command("list")
+def list_command() -> None:
+    """List the shipped scenarios, a line each."""
+    from rich.console import Console
+    from rich.table import Table
+
+    from diagrams.scenario import list_scenarios
+
+    table = Table(box=None, show_header=False, padding=(0, 2, 0, 0))
+    table.add_column(no_wrap=True, style="bold")
+    with _bad_input_in_one_line():
+        for name, description in list_scenarios():
+            table.add_row(name, description)
+    Console().print(table)
+
+
+@app.command()
+def run(
+    scenario: ScenarioArgument,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="DIR",
+            help="Folder to write, new or empty. "
+            f"[default: {RUNS_FOLDER}/SCENARIO-seedN]",
+            show_default=False,
+        ),
+    ] = None,
+    overrides: SetOption = None,
+    seed: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N", min=0, help="Seed of everything random (simulation.seed)."
+        ),
+    ] = None,
+    meshcat: Annotated[
+        bool, typer.Option("--meshcat", help="Show the run live in a browser.")
+    ] = False,
+) -> None:
+    """Simulate a scenario closed loop; write the run folder; print the summary.
+
+    Ctrl-C ends a run early; what it has logged is kept.
+    """
+    with _bad_input_in_one_line():
+        chosen = _load(scenario, overrides, seed)
+        folder = _free_folder(chosen, out)
+        summary = _simulate(chosen, folder, meshcat)
+    _print_summary(summary, folder)
+    raise typer.Exit(DONE if summary.outcome == "completed" else NOT_DONE)
+
+
+@app.command()
+def segment(
+    cloud: Annotated[
+        Path,
+        typer.Argument(
+            metavar="CLOUD", help="Point cloud: .pcd, .ply, .xyz, .txt or .npz."
+        ),
+    ],
+    gravity: Annotated[
+        str,
+        typer.Option(
+            metavar="X,Y,Z", help="Direction of gravity in the cloud's frame."
+        ),
+    ] = "0,0,-1",
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="DIR",
+            help="Folder to write planes.json and planes.png to. "
+            "[default: segmented/CLOUD]",
+            show_default=False,
+        ),
+    ] = None,
+) -> None:
+    """Find planes and stairs in a point cloud: JSON, a picture, times."""
+    with _bad_input_in_one_line():
+        from diagrams.segmenting import segment_file
+
+        direction = _parse_direction(gravity)
+        result = segment_file(cloud, direction, out or Path("segmented") / cloud.stem)
+    found = result.segmentation
+    typer.echo(
+        f"{result.points} points: {len(found.planes)} planes, "
+        f"{len(found.staircase.treads)} treads"
+    )
+    for stage, milliseconds in found.times_ms:
+        typer.echo(f"  {stage:<16} {milliseconds:8.1f} ms")
+    typer.echo(f"{result.planes_json}\n{result.planes_png}")
+
+
+@app.command()
+def plot(run_folder: RunArgument) -> None:
+    """Draw the figures of a run into its folder `figures`."""
+    with _bad_input_in_one_line():
+        from diagrams.report import plot_run
+
+        for path in plot_run(run_folder):
+            typer.echo(path)
+
+
+@app.command()
+def replay(run_folder: RunArgument) -> None:
+    """Write a run as a page that opens without a server."""
+    with _bad_input_in_one_line():
+        from diagrams.replay import replay_run
+
+        _quiet_drake()
+        typer.echo(replay_run(run_folder))
+
+
+@app.command()
+def diagram(
+    scenario: ScenarioArgument,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="SVG file to write. [default: SCENARIO.svg]",
+            show_default=False,
+        ),
+    ] = None,
+    overrides: SetOption = None,
+) -> None:
+    """Draw the block diagram of a scenario as SVG."""
+    with _bad_input_in_one_line():
+        from diagrams.block_diagram import block_diagram_svg
+        from diagrams.tasks import build_task
+
+        _quiet_drake()
+        chosen = _load(scenario, overrides, None)
+        path = out or Path(f"{chosen.name}.svg")
+        picture = block_diagram_svg(build_task(chosen).diagram, chosen.name)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(picture, encoding="utf-8")
+    typer.echo(path)
+
+
+def main() -> None:
+    """Runs the command line."""
+    app()
+
+
+def _load(name: str, overrides: list[str] | None, seed: int | None) -> "Scenario":
+    from diagrams.scenario import load_scenario
+
+    changes = list(overrides or [])
+    if seed is not None:
+        changes.append(f"simulation.seed={seed}")
+    return load_scenario(name, changes)
+
+
+def _free_folder(scenario: "Scenario", out: Path | None) -> Path:
+    """The folder that was asked for, or the first that is free of the default ones."""
+    if out is not None:
+        if out.exists() and (not out.is_dir() or any(out.iterdir())):
+            raise OptionError(f"--out {out}: exists and is not an empty folder")
+        return out
+    name = f"{scenario.name}-seed{scenario.simulation.seed}"
+    folder, number = RUNS_FOLDER / name, 1
+    while folder.exists():
+        number += 1
+        folder = RUNS_FOLDER / f"{name}-{number}"
+    return folder
+
+
+def _simulate(scenario: "Scenario", folder: Path, live: bool) -> "Summary":
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    console = Console(stderr=True)
+    with console.status("building the diagram"):
+        from pydrake.geometry import Meshcat
+
+        from diagrams.illustrations import illustrate
+        from diagrams.simulation import run_task
+        from diagrams.tasks import build_task
+
+        _quiet_drake()
+        meshcat = Meshcat() if live else None
+        task = build_task(scenario, meshcat)
+    if meshcat is not None:
+        console.print(f"watch at {meshcat.web_url()}")
+    limit = scenario.simulation.max_time
+    with Progress(
+        TextColumn("{task.fields[activity]:<6}"),
+        BarColumn(),
+        TextColumn("{task.completed:6.1f} s of at most {task.total:g} s, took"),
+        TimeElapsedColumn(),
+        console=console,
+        transient=True,
+    ) as bar:
+        job = bar.add_task("", total=limit, activity="")
+        summary = run_task(
+            task,
+            scenario,
+            folder,
+            progress=_reporter(
+                lambda time, activity: bar.update(
+                    job, completed=time, activity=activity
+                )
+            ),
+            realtime_rate=1.0 if live else 0.0,
+        )
+    with console.status("drawing figures, replay and block diagram"):
+        for complaint in illustrate(folder, task.diagram):
+            console.print(f"footfall: {complaint}", style="yellow", highlight=False)
+    return summary
+
+
+def _reporter(show: Callable[[float, str], None]) -> Callable[[float, str], None]:
+    """Where there is no terminal a bar would only fill the log: nothing is shown."""
+    return show if sys.stderr.isatty() else lambda time, activity: None
+
+
+def _print_summary(summary: "Summary", folder: Path) -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    data = summary.to_json()
+    color = "green" if summary.outcome == "completed" else "red"
+    console = Console(highlight=False)
+    console.print(
+        f"[bold {color}]{summary.outcome}[/]",
+        f"{summary.reason}",
+        sep=": ",
+        markup=True,
+    )
+    table = Table(box=None, show_header=False, padding=(0, 2, 0, 0))
+    skipped = {"outcome", "reason", "timing_us", "versions", "perception"}
+    for name, value in data.items():
+        if name in skipped or name.endswith("_joint"):
+            continue
+        shown = "not measured" if value is None else value
+        if isinstance(shown, float):
+            shown = f"{shown:.4g}"
+        joint = data.get(name.replace("_fraction", "_joint"))
+        if name.endswith("_fraction") and joint is not None:
+            shown = f"{shown} ({joint})"
+        table.add_row(name, str(shown))
+    console.print(table)
+    console.print(f"written to {folder}")
+
+
+def _parse_direction(text: str) -> "Vector":
+    import numpy as np
+
+    try:
+        numbers = np.array([float(part) for part in text.split(",")])
+    except ValueError:
+        numbers = np.zeros(0)
+    if numbers.shape != (3,) or not np.isfinite(numbers).all() or not numbers.any():
+        raise OptionError(
+            f"--gravity: must be three numbers X,Y,Z, not all zero, got {text!r}"
+        )
+    return numbers
+
+
+def _quiet_drake() -> None:
+    """Drake tells of every port that Meshcat opens; a person did not ask."""
+    logging.getLogger("drake").setLevel(logging.ERROR)
+
+
+@contextmanager
+def _bad_input_in_one_line() -> Iterator[None]:
+    """What the user can mend ends in one line on stderr and exit status 2."""
+    try:
+        yield
+    except Exception as error:
+        if not isinstance(error, _bad_input_errors()):
+            raise
+        line = " ".join(str(error).split())
+        typer.echo(f"footfall: {line}", err=True)
+        raise typer.Exit(BAD_INPUT) from None
+
+
+def _bad_input_errors() -> tuple[type[Exception], ...]:
+    from diagrams.scenario import ScenarioError
+    from diagrams.signals import RunError
+    from systems.perception.cloud_files import CloudFileError
+
+    return ScenarioError, RunError, CloudFileError, OptionError, OSError

@@ -1,0 +1,384 @@
+"""The figures of a run."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.patches import Polygon
+from pydrake.multibody.plant import AddMultibodyPlantSceneGraph
+from pydrake.systems.framework import DiagramBuilder
+
+from diagrams.evidence import STATE_SIGNAL, Limits, joint_velocities, robot_limits
+from diagrams.measures import LIFTED, contact_intervals, measured_zmp
+from diagrams.signals import Run, RunError, load_run
+from diagrams.true_motion import TrueMotion, true_motion
+from models.robot_loader import add_robot
+from models.staircase import Tread
+from systems.ports import Vector
+from systems.values import FEET, Foot
+
+FIGURES_FOLDER = "figures"
+DPI = 120
+COLORS: dict[Foot, str] = {"left": "#1971c2", "right": "#d9480f"}
+COM, DCM, ZMP = "#212529", "#2f9e44", "#9c36b5"
+TREAD = "#c2a06e"
+ACTIVITY_COLORS = {"scan": "#e7f5ff", "plan": "#fff3bf"}
+SHOWN_JOINTS = 6
+"""How many joints have a colour of their own; the others are grey."""
+
+
+@dataclass(frozen=True)
+class RunData:
+    """What the figures draw."""
+
+    run: Run
+    motion: TrueMotion
+    limits: Limits
+    velocities: Mapping[str, Vector]
+    treads: tuple[Tread, ...]
+    wrenches: Mapping[Foot, Vector] | None
+    """Each foot's contact wrench at `motion.time`, (n, 6)."""
+
+    def signal(self, name: str) -> pd.DataFrame | None:
+        """A vector signal, where it was logged."""
+        return self.run.signals.get(name)
+
+    def first_signal(self, *names: str) -> pd.DataFrame | None:
+        """The first of these signals that was logged."""
+        return next((self.run.signals[n] for n in names if n in self.run.signals), None)
+
+
+def plot_run(folder: Path) -> list[Path]:
+    """Draws the figures of a run into its folder `figures`; gives their paths.
+
+    `balance.png` CoM, DCM and ZMP over time against the support; `top_view.png` treads,
+    footsteps and CoM from above; `side_view.png` how the feet passed the steps;
+    `feet.png` heights of and forces on the feet; `joints.png` torques and speeds as
+    shares of their limits. What was not logged is left out of them.
+
+    Raises:
+        RunError: the folder holds no run, or one without the plant's state.
+        ScenarioError: its scenario cannot be read.
+    """
+    data = _read(load_run(folder))
+    figures: dict[str, Callable[[RunData], Figure]] = {
+        "top_view": top_view,
+        "joints": joints_figure,
+        "feet": feet_figure,
+        "balance": balance_figure,
+    }
+    if data.treads:
+        figures["side_view"] = side_view
+    target = folder / FIGURES_FOLDER
+    target.mkdir(exist_ok=True)
+    paths = []
+    for name, draw in figures.items():
+        path = target / f"{name}.png"
+        partial = path.with_suffix(".partial")
+        canvas = FigureCanvasAgg(draw(data))
+        canvas.figure.set_dpi(DPI)
+        canvas.print_png(str(partial))  # type: ignore[no-untyped-call]
+        paths.append(partial.replace(path))
+    return paths
+
+
+def _read(run: Run) -> RunData:
+    if STATE_SIGNAL not in run.signals:
+        raise RunError(f"{run.folder}: the run did not log {STATE_SIGNAL}")
+    samples = run.signals[STATE_SIGNAL].to_numpy(dtype=np.float64)
+    time, state = samples[:, 0], samples[:, 1:]
+    robot = run.scenario.robot.model()
+    plant, scene_graph = AddMultibodyPlantSceneGraph(DiagramBuilder(), time_step=0.0)
+    instance = add_robot(plant, scene_graph, robot)
+    plant.Finalize()
+    wrenches: dict[Foot, Vector] | None = None
+    if "station.foot_wrenches" in run.signals:
+        logged = run.signals["station.foot_wrenches"].to_numpy(dtype=np.float64)
+        both = np.stack(
+            [np.interp(time, logged[:, 0], column) for column in logged[:, 1:13].T], 1
+        )
+        wrenches = {"left": both[:, :6], "right": both[:, 6:]}
+    return RunData(
+        run=run,
+        motion=true_motion(plant, instance, robot, time, state),
+        limits=robot_limits(plant, instance),
+        velocities=joint_velocities(plant, instance, state),
+        treads=run.scenario.scene.treads(),
+        wrenches=wrenches,
+    )
+
+
+def balance_figure(data: RunData) -> Figure:
+    """CoM, DCM and ZMP along x and y over time, with the edges of the support."""
+    figure = _figure(11.0, 7.0)
+    axes = figure.subplots(2, 1, sharex=True)
+    time, motion = data.motion.time, data.motion
+    measured_dcm = data.signal("balance_state.dcm")
+    zmp = _zmp(data)
+    for axis, (ax, letter) in enumerate(zip(axes, "xy", strict=True)):
+        _shade_activities(ax, data)
+        low, high = _support(data, axis)
+        ax.fill_between(time, low, high, color="#dee2e6", lw=0, label="support")
+        if zmp is not None:
+            ax.plot(time, zmp[:, axis], color=ZMP, lw=0.9, label="ZMP")
+        _plot_column(ax, _reference(data, "zmp"), axis, ZMP, "ZMP wanted")
+        if measured_dcm is not None:
+            _plot_column(ax, measured_dcm, axis, DCM, "DCM", dashed=False)
+        _plot_column(ax, _reference(data, "dcm"), axis, DCM, "DCM wanted")
+        ax.plot(time, motion.com[:, axis], color=COM, lw=1.4, label="CoM")
+        _plot_column(ax, _reference(data, "com"), axis, COM, "CoM wanted")
+        ax.set_ylabel(f"{letter} [m]")
+        ax.grid(alpha=0.3)
+    _legend_outside(axes[0])
+    axes[1].set_xlabel("time [s]")
+    _title(figure, data, "balance")
+    return figure
+
+
+def top_view(data: RunData) -> Figure:
+    """Treads, footsteps, CoM and ZMP from above."""
+    figure = _figure(11.0, 6.5)
+    ax = figure.subplots()
+    for tread in data.treads:
+        _draw_rectangle(ax, tread)
+    for foot in FEET:
+        corners = data.motion.sole_corners[foot]
+        for index in _standing_samples(data, foot):
+            outline = corners[index][:, :2]
+            ax.add_patch(Polygon(outline, fc=COLORS[foot], ec=COLORS[foot], alpha=0.25))
+            ax.add_patch(Polygon(outline, fill=False, ec=COLORS[foot], lw=1.0))
+        ax.plot([], [], color=COLORS[foot], lw=6, alpha=0.4, label=f"{foot} sole")
+    zmp = _zmp(data)
+    if zmp is not None:
+        ax.plot(*zmp.T, color=ZMP, lw=0.8, alpha=0.8, label="ZMP")
+    ax.plot(*data.motion.com[:, :2].T, color=COM, lw=1.5, label="CoM")
+    ax.set_aspect("equal", adjustable="datalim")
+    ax.autoscale_view()
+    ax.set_xlabel("x [m]")
+    ax.set_ylabel("y [m]")
+    ax.grid(alpha=0.3)
+    _legend_outside(ax)
+    _title(figure, data, "from above")
+    return figure
+
+
+def side_view(data: RunData) -> Figure:
+    """Paths of toes and heels over the profile of the stairs."""
+    figure = _figure(11.0, 6.5)
+    ax = figure.subplots()
+    X_RW = data.treads[0].X_WR.inverse()
+    offset = data.treads[0].size[0] / 2.0
+
+    def along(points: Vector) -> tuple[Vector, Vector]:
+        """Distance from the first riser and height."""
+        p_R = np.array(X_RW.multiply(points.T))
+        return p_R[0] + offset, points[:, 2]
+
+    corners = np.stack([data.motion.sole_corners[foot] for foot in FEET])
+    begin = min(along(corners[:, 0].reshape(-1, 3))[0].min() - 0.1, -0.3)
+    profile = [(begin, 0.0), (0.0, 0.0)]
+    for tread in data.treads:
+        centre = np.array(tread.X_WR.translation())[None]
+        middle, half, height = along(centre)[0][0], tread.size[0] / 2.0, centre[0, 2]
+        profile += [(middle - half, height), (middle + half, height)]
+    ground = np.array(profile)
+    ax.fill_between(ground[:, 0], ground[:, 1], -0.05, color=TREAD, alpha=0.5, lw=0)
+    ax.plot(*ground.T, color="#7a5c2e", lw=1.2)
+    for foot in FEET:
+        sole = data.motion.sole_corners[foot]
+        toe, heel = sole[:, [1, 2]].mean(axis=1), sole[:, [0, 3]].mean(axis=1)
+        ax.plot(*along(toe), color=COLORS[foot], lw=1.3, label=f"{foot} toe")
+        ax.plot(*along(heel), color=COLORS[foot], lw=0.9, ls=":", label=f"{foot} heel")
+        for index in _standing_samples(data, foot):
+            ends = np.stack([heel[index], toe[index]])
+            ax.plot(*along(ends), color=COLORS[foot], lw=4, alpha=0.5)
+    ax.plot(*along(data.motion.com), color=COM, lw=1.3, label="CoM")
+    ax.set_aspect("equal", adjustable="datalim")
+    ax.set_xlabel("along the stairs from the first riser [m]")
+    ax.set_ylabel("height [m]")
+    ax.grid(alpha=0.3)
+    _legend_outside(ax)
+    _title(figure, data, "from the side")
+    return figure
+
+
+def feet_figure(data: RunData) -> Figure:
+    """Heights of the soles, and the forces on them."""
+    figure = _figure(11.0, 7.0)
+    heights, forces = figure.subplots(2, 1, sharex=True)
+    time = data.motion.time
+    for ax in (heights, forces):
+        _shade_activities(ax, data)
+        ax.grid(alpha=0.3)
+    for tread in data.treads:
+        height = float(tread.X_WR.translation()[2])
+        heights.axhline(height, color=TREAD, lw=1.5, zorder=0)
+    for foot in FEET:
+        color = COLORS[foot]
+        lowest = data.motion.sole_corners[foot][:, :, 2].min(axis=1)
+        heights.plot(time, lowest, color=color, lw=1.3, label=f"{foot} sole, lowest")
+        if data.wrenches is not None:
+            share = data.wrenches[foot][:, 2] / data.limits.weight
+            forces.plot(time, share, color=color, lw=1.0, label=f"{foot} foot")
+    heights.set_ylabel("height [m]")
+    forces.set_ylabel("normal force [body weights]")
+    forces.set_xlabel("time [s]")
+    _legend_outside(heights)
+    if data.wrenches is None:
+        forces.text(0.5, 0.5, "not logged", transform=forces.transAxes, ha="center")
+    else:
+        _legend_outside(forces)
+    _title(figure, data, "feet")
+    return figure
+
+
+def joints_figure(data: RunData) -> Figure:
+    """Torques and speeds of all joints as shares of their limits."""
+    figure = _figure(11.0, 7.0)
+    torques, speeds = figure.subplots(2, 1, sharex=True)
+    logged = data.signal("plant.net_actuation")
+    series: dict[str, Vector] = {}
+    torque_time = np.zeros(0)
+    if logged is not None:
+        samples = logged.to_numpy(dtype=np.float64)
+        torque_time = samples[:, 0]
+        series = dict(zip(data.limits.torque, samples[:, 1:].T, strict=True))
+    _shares(torques, data, torque_time, series, data.limits.torque, "torque / limit")
+    time = data.motion.time
+    _shares(speeds, data, time, data.velocities, data.limits.speed, "speed / limit")
+    speeds.set_xlabel("time [s]")
+    _title(figure, data, "joints")
+    return figure
+
+
+def _shares(
+    ax: Axes,
+    data: RunData,
+    time: Vector,
+    series: Mapping[str, Vector],
+    limits: Mapping[str, float],
+    label: str,
+) -> None:
+    """The joints nearest to their limits in colour, the others in grey."""
+    _shade_activities(ax, data)
+    shares = {joint: values / limits[joint] for joint, values in series.items()}
+    order = sorted(shares, key=lambda joint: float(np.abs(shares[joint]).max()))
+    for joint in order[:-SHOWN_JOINTS]:
+        ax.plot(time, shares[joint], color="#ced4da", lw=0.6)
+    for joint in order[-SHOWN_JOINTS:][::-1]:
+        peak = float(np.abs(shares[joint]).max())
+        ax.plot(time, shares[joint], lw=0.9, label=f"{joint} ({peak:.2f})")
+    for limit in (-1.0, 1.0):
+        ax.axhline(limit, color="#c92a2a", lw=1.0, ls="--")
+    ax.set_ylim(-1.15, 1.15)
+    ax.set_ylabel(label)
+    ax.grid(alpha=0.3)
+    _legend_outside(ax)
+
+
+def _figure(width: float, height: float) -> Figure:
+    return Figure(figsize=(width, height), layout="constrained")
+
+
+def _title(figure: Figure, data: RunData, what: str) -> None:
+    summary = data.run.summary
+    name, outcome = summary.get("scenario"), summary.get("outcome")
+    figure.suptitle(f"{name}, {outcome}: {what}", fontsize=11)
+
+
+def _legend_outside(ax: Axes) -> None:
+    if ax.get_legend_handles_labels()[0]:
+        ax.legend(
+            loc="upper left", bbox_to_anchor=(1.005, 1.0), fontsize=8, frameon=False
+        )
+
+
+def _shade_activities(ax: Axes, data: RunData) -> None:
+    """Marks when the executive was scanning or planning."""
+    if "executive.status" not in data.run.value_names:
+        return
+    entries = data.run.values("executive.status")
+    ends = [*(time for time, _ in entries[1:]), float(data.motion.time[-1])]
+    for (start, status), end in zip(entries, ends, strict=True):
+        color = ACTIVITY_COLORS.get(str(status.get("activity")))
+        if color is not None:
+            ax.axvspan(start, end, color=color, lw=0, zorder=0)
+
+
+def _plot_column(
+    ax: Axes,
+    frame: pd.DataFrame | None,
+    axis: int,
+    color: str,
+    label: str,
+    dashed: bool = True,
+) -> None:
+    if frame is not None:
+        samples = frame.to_numpy(dtype=np.float64)
+        style = "--" if dashed else "-"
+        ax.plot(
+            samples[:, 0],
+            samples[:, 1 + axis],
+            color=color,
+            lw=0.9,
+            ls=style,
+            alpha=0.8,
+            label=label,
+        )
+
+
+def _reference(data: RunData, port: str) -> pd.DataFrame | None:
+    return data.first_signal(f"reference.{port}", f"stabilizer.{port}")
+
+
+def _zmp(data: RunData) -> Vector | None:
+    """The ZMP from the true contact wrenches, (n, 2)."""
+    if data.wrenches is None:
+        return None
+    poses, wrenches = data.motion.X_WF, data.wrenches
+    return measured_zmp(
+        (poses["left"], poses["right"]),
+        (wrenches["left"], wrenches["right"]),
+        data.limits.weight,
+    )
+
+
+def _support(data: RunData, axis: int) -> tuple[Vector, Vector]:
+    """Extent of the soles on the ground along one axis, (n,) each; nan without any."""
+    count = len(data.motion.time)
+    low, high = np.full(count, np.inf), np.full(count, -np.inf)
+    for foot in FEET:
+        corners = data.motion.sole_corners[foot][:, :, axis]
+        down = np.ones(count, dtype=bool)
+        if data.wrenches is not None:
+            down = data.wrenches[foot][:, 2] > LIFTED * data.limits.weight
+        low = np.where(down, np.minimum(low, corners.min(axis=1)), low)
+        high = np.where(down, np.maximum(high, corners.max(axis=1)), high)
+    none = ~np.isfinite(low)
+    low[none] = high[none] = np.nan
+    return low, high
+
+
+def _standing_samples(data: RunData, foot: Foot) -> list[int]:
+    """A sample in the middle of every contact of a foot."""
+    if data.wrenches is None:
+        return [0, len(data.motion.time) - 1]
+    force = data.wrenches[foot][:, 2]
+    return [
+        (interval.start + interval.end) // 2
+        for interval in contact_intervals(force, data.limits.weight)
+    ]
+
+
+def _draw_rectangle(ax: Axes, tread: Tread) -> None:
+    half = tread.size / 2.0
+    signs = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
+    corners = np.array(tread.X_WR.multiply((signs * [*half, 0.0]).T)).T
+    ax.add_patch(
+        Polygon(corners[:, :2], fc=TREAD, ec="#7a5c2e", alpha=0.35, lw=1.0, zorder=0)
+    )
