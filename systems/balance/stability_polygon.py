@@ -30,6 +30,7 @@ from systems.balance.wrench_slice import (
     zmp_slice,
 )
 from systems.ports import Vector
+from systems.values import Value
 
 Status: TypeAlias = Literal[
     "ok", "degenerate", "unbounded", "infeasible", "no_contact", "solver_failed"
@@ -45,7 +46,7 @@ _FLAT = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class StabilityPolygon:
+class StabilityPolygon(Value):
     """A polygon, how it was found, and what it means when it is empty."""
 
     vertices: Vector = field(default_factory=lambda: np.zeros((0, 2)))
