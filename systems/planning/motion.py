@@ -13,14 +13,10 @@ import numpy as np
 from models.robot import RobotModel
 from systems.balance.zmp_preview import GRAVITY, ZmpPreviewParams, rest_state
 from systems.balance.zmp_tracking import generate_varying_height, height_factor
-from systems.planning.foot_trajectories import (
-    heading,
-    lift_heel,
-    quintic,
-    swing,
-    toe_off_pitch,
-)
+from systems.planning.footstep_planner import pose_from_xyz_rpy
 from systems.planning.motion_params import MotionPlannerParams
+from systems.planning.swing_trajectory import quintic, swing_trajectory
+from systems.planning.toe_off import heading, lift_heel, toe_off_pitch
 from systems.ports import Vector
 from systems.values import (
     FEET,
@@ -30,6 +26,9 @@ from systems.values import (
     MotionPlan,
     other_foot,
 )
+
+LEVEL = 0.03
+"""Heights this near each other are the same level, m."""
 
 
 @dataclass(frozen=True)
@@ -87,6 +86,7 @@ def plan_motion(
     feet: Vector,
     com: Vector,
     footsteps: tuple[Footstep, ...],
+    edges: Vector,
     params: MotionPlannerParams,
     preview: ZmpPreviewParams,
     robot: RobotModel,
@@ -97,6 +97,7 @@ def plan_motion(
         feet: poses of both feet at the start, (2, 6), left first, level.
         com: p_WCom at the start, (3,), at rest.
         footsteps: where the feet go, in order; none makes a plan that stands.
+        edges: a point of the front edge of each tread, (m, 3), m.
         params: timing and shape.
         preview: weights of the ZMP tracking and the cart's height.
         robot: its soles and legs.
@@ -117,7 +118,7 @@ def plan_motion(
     motion = generate_varying_height(zmp[:, :2], factor, preview, rest_state(com[:2]))
     zmp[:, :2] = motion.zmp
     path = np.column_stack([motion.com, height])
-    poses, contacts, lengths = _feet(time, steps, feet, path, params, robot)
+    poses, contacts, lengths = _feet(time, steps, feet, path, edges, params, robot)
     climbs = any(step.climbs for step in steps)
     return MotionPlan(
         start_time=0.0,
@@ -216,6 +217,7 @@ def _feet(
     steps: tuple[Step, ...],
     feet: Vector,
     com: Vector,
+    edges: Vector,
     params: MotionPlannerParams,
     robot: RobotModel,
 ) -> tuple[Vector, Vector, Vector]:
@@ -242,15 +244,19 @@ def _feet(
             poses[rows, i] = lift_heel(step.start, pitch * quintic(u), sole)
             lengths[rows, i] = params.toe_strip
         rows = slice(lift, land + 1)
-        poses[rows, i] = swing(
-            step.start,
-            step.end,
-            pitch,
-            params.climb_clearance if step.climbs else params.step_height,
-            params.retraction,
-            (time[rows] - step.lift) / (step.land - step.lift),
+        way = swing_trajectory(
+            pose_from_xyz_rpy(poses[lift, i]),
+            pose_from_xyz_rpy(step.end),
+            step.land - step.lift,
+            params.period,
+            edges[
+                (edges[:, 2] > step.start[2] + LEVEL)
+                & (edges[:, 2] < step.end[2] + LEVEL)
+            ],
             sole,
+            params.swing,
         )
+        poses[rows, i] = np.hstack([way.positions, way.rpy])
         poses[land + 1 :, i] = step.end
         contacts[lift:land, i] = 0.0
         lengths[lift:land, i] = sole.length

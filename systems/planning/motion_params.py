@@ -1,7 +1,9 @@
 """Parameters of a motion: how long its phases last and how the feet and CoM move."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+
+from systems.planning.swing_trajectory import SwingParams
 
 
 @dataclass(kw_only=True)
@@ -30,12 +32,12 @@ class MotionPlannerParams:
     com_height: float = 0.85
     """CoM above the ground at mid-stance, m. Higher stretches the knees, lower loads
     them: at 0.80 m level walking needs 100 Nm at the knee, at 0.85 m 60 Nm."""
-    step_height: float = 0.05
-    """Clearance of the toe over level ground, m."""
-    climb_clearance: float = 0.05
-    """Clearance of the toe over the higher of the two grounds, m."""
-    retraction: float = 0.01
-    """How far the toe draws back from the riser as it lifts, m."""
+    swing: SwingParams = field(
+        default_factory=lambda: SwingParams(
+            apex_clearance=0.05, edge_clearance=0.03, retraction=0.01
+        )
+    )
+    """Clearances of the foot in the air."""
     zmp_forward: float = 0.035
     """ZMP in single support ahead of the ankle, m: near the middle of the sole."""
     zmp_inward: float = 0.008
@@ -72,9 +74,6 @@ class MotionPlannerParams:
             if not 0.0 < getattr(self, name) < math.inf:
                 raise ValueError(f"{name}: must be positive, got {getattr(self, name)}")
         for name in (
-            "step_height",
-            "climb_clearance",
-            "retraction",
             "zmp_forward",
             "zmp_inward",
             "lean",
@@ -88,3 +87,4 @@ class MotionPlannerParams:
             raise ValueError(
                 f"toe_off_start: must lie in [0, 1), got {self.toe_off_start}"
             )
+        self.swing.validate()

@@ -1,0 +1,261 @@
+"""Touch-down is felt, not assumed: foot references that yield to the ground.
+
+A foot that meets the ground before it was planned stops there; one that does not find
+it where it was planned goes on down until it does. From then on its reference stays
+where the foot was when it met the ground. In the air, where soft legs sag, the
+reference is shifted until the foot itself follows the plan.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from pydrake.systems.framework import BasicVector, Context, DiscreteValues, LeafSystem
+
+from systems.ports import Vector, eval_vector, set_vector
+from systems.timing import timed
+
+_ROLL, _PITCH = 3, 4
+
+
+@dataclass(kw_only=True)
+class LandingParams:
+    """When a foot counts as landed and how it looks for the ground."""
+
+    period: float = 0.005
+    """Of the controllers, s."""
+    touch_force: float = 15.0
+    """Vertical force that counts as ground, N; a sensor's noise and the foot's own
+    inertia stay below."""
+    blind_time: float = 0.3
+    """After lift-off no force counts for this long, s: the foot still leaves."""
+    search_speed: float = 0.10
+    """Speed at which a foot that missed the ground goes on down, m/s."""
+    search_depth: float = 0.03
+    """How far it does so, m; then it is taken for landed, as deep ground is a plan's
+    business."""
+    release_time: float = 0.08
+    """Time constant with which a lifted foot forgets where it stood, s."""
+    swing_gain: float = 15.0
+    """Rate at which a foot in the air is brought to its plan, 1/s."""
+    swing_limit: float = 0.04
+    """Most that its reference is shifted for that, m and rad."""
+
+    def validate(self) -> None:
+        """Checks every field.
+
+        Raises:
+            ValueError: "field: reason, got x" for the first field that is wrong.
+        """
+        for name in ("period", "touch_force", "search_speed", "release_time"):
+            if not 0.0 < getattr(self, name) < np.inf:
+                raise ValueError(f"{name}: must be positive, got {getattr(self, name)}")
+        for name in ("blind_time", "search_depth", "swing_gain", "swing_limit"):
+            if not 0.0 <= getattr(self, name) < np.inf:
+                raise ValueError(
+                    f"{name}: must not be negative, got {getattr(self, name)}"
+                )
+
+
+@dataclass(frozen=True)
+class FootState:
+    """What is remembered of one foot."""
+
+    offset: Vector
+    """Reference minus plan, as (x, y, z, roll, pitch, yaw), (6,), m and rad."""
+    sag: Vector
+    """What is added in the air so that the foot follows the plan, (6,)."""
+    held: Vector
+    """The reference at which a foot that landed early is held, (6,)."""
+    landed: bool
+    """Whether it stands on ground that it has felt."""
+    lifted_for: float
+    """Time since the plan lifted it, s; 0 while it is to stand."""
+
+
+def adapt(
+    state: FootState,
+    planned: Vector,
+    rate: Vector,
+    contact: bool,
+    force: float,
+    measured: Vector,
+    params: LandingParams,
+) -> tuple[FootState, Vector, Vector]:
+    """One tick for one foot.
+
+    Args:
+        state: after the tick before.
+        planned: pose that the plan wants now, (6,).
+        rate: its rate, (6,).
+        contact: whether the plan wants the foot on the ground.
+        force: measured vertical force on it, N.
+        measured: pose of the sole, (6,).
+        params: see there.
+
+    Returns:
+        The state after this tick, the pose to track and its rate, (6,) each.
+    """
+    offset, sag, held, landed = state.offset, state.sag, state.held, state.landed
+    felt = force > params.touch_force
+    lifted_for = 0.0
+    if not contact:
+        lifted_for = state.lifted_for + params.period
+        if state.lifted_for == 0.0:
+            landed = False
+        if not landed:
+            offset = offset * (1.0 - min(1.0, params.period / params.release_time))
+            sag = state.sag + params.swing_gain * params.period * (planned - measured)
+            sag = np.clip(sag, -params.swing_limit, params.swing_limit)
+            if felt and lifted_for > params.blind_time and rate[2] < 0.0:
+                landed = True
+                held = _level(measured)
+        if landed:
+            offset = held - planned
+            rate = np.zeros(6)
+            sag = np.zeros(6)
+    elif not landed:
+        landed = felt or offset[2] < -params.search_depth
+        if landed:
+            offset, sag = _level(measured) - planned, np.zeros(6)
+        else:
+            offset = offset.copy()
+            offset[2] -= params.search_speed * params.period
+            rate = rate.copy()
+            rate[2] -= params.search_speed
+    after = FootState(offset, sag, held, landed, lifted_for)
+    return after, planned + offset + sag, rate
+
+
+def _level(pose: Vector) -> Vector:
+    """The pose with the sole flat, (6,)."""
+    flat = pose.copy()
+    flat[[_ROLL, _PITCH]] = 0.0
+    return flat
+
+
+def standing() -> FootState:
+    """A foot that stands where its plan says."""
+    return FootState(np.zeros(6), np.zeros(6), np.zeros(6), True, 0.0)
+
+
+_SIZE = 20
+
+
+def _pack(state: FootState) -> Vector:
+    return np.concatenate(
+        [state.offset, state.sag, state.held, [float(state.landed), state.lifted_for]]
+    )
+
+
+def _unpack(values: Vector) -> FootState:
+    return FootState(
+        values[:6], values[6:12], values[12:18], values[18] > 0.5, values[19]
+    )
+
+
+class LandingAdaptor(LeafSystem):
+    """Lets foot references yield to the ground that the feet feel.
+
+    .. pydrake_system::
+
+        name: LandingAdaptor
+        input_ports:
+        - foot_references
+        - contacts
+        - plan_start
+        - foot_wrenches
+        - foot_poses
+        output_ports:
+        - foot_references
+        - contacts
+
+    - `foot_references` (input): planned sole frames X_WF (x, y, z, roll, pitch, yaw),
+      left then right, then the rates of both, (24,), m, rad, m/s, rad/s.
+    - `contacts` (input): planned contact of left and right, 0 or 1, then the length of
+      each sole that carries, (4,), -, -, m, m.
+    - `plan_start`: start time of the plan, (1,), s; when it changes the new plan is
+      taken to begin at the references of this system.
+    - `foot_wrenches`: measured, left then right, force and moment at F in F, (12,), N
+      and Nm.
+    - `foot_poses`: measured sole frames X_WF, left then right, (12,), m and rad.
+    - `foot_references` (output): like the input, adapted; of the last tick.
+    - `contacts` (output): like the input, but a foot counts when it has landed.
+
+    The discrete state is, a foot, (offset (6), sag (6), held pose (6), landed, time since
+    lift-off), then the outputs of this tick (28), then the plan's start.
+    """
+
+    def __init__(self, params: LandingParams, foot_poses: Vector) -> None:
+        """Declares the ports.
+
+        Args:
+            params: see there.
+            foot_poses: where the feet stand in the default context, (12,).
+
+        Raises:
+            ValueError: a parameter is out of range.
+        """
+        super().__init__()
+        params.validate()
+        self._params = params
+        stand = _pack(standing())
+        initial: Vector = np.concatenate(
+            [stand, stand, foot_poses, np.zeros(12), [1.0, 1.0, 1.0, 1.0], [0.0]]
+        )
+        self._state = self.DeclareDiscreteState(initial)
+        self._references = self.DeclareVectorInputPort("foot_references", 24)
+        self._contacts = self.DeclareVectorInputPort("contacts", 4)
+        self._plan_start = self.DeclareVectorInputPort("plan_start", 1)
+        self._wrenches = self.DeclareVectorInputPort("foot_wrenches", 12)
+        self._poses = self.DeclareVectorInputPort("foot_poses", 12)
+        ticket = {self.discrete_state_ticket(self._state)}
+        for name, size, calc in (
+            ("foot_references", 24, self._calc_references),
+            ("contacts", 4, self._calc_contacts),
+        ):
+            self.DeclareVectorOutputPort(
+                name, size, timed(self, calc), prerequisites_of_calc=ticket
+            )
+        self.DeclarePeriodicDiscreteUpdateEvent(
+            period_sec=params.period, offset_sec=0.0, update=timed(self, self._update)
+        )
+
+    def _values(self, context: Context) -> Vector:
+        values: Vector = context.get_discrete_state(int(self._state)).value()
+        return values
+
+    def _calc_references(self, context: Context, output: BasicVector) -> None:
+        set_vector(output, self._values(context)[2 * _SIZE : 2 * _SIZE + 24])
+
+    def _calc_contacts(self, context: Context, output: BasicVector) -> None:
+        set_vector(output, self._values(context)[2 * _SIZE + 24 : 2 * _SIZE + 28])
+
+    def _update(self, context: Context, discrete: DiscreteValues) -> None:
+        before = self._values(context)
+        planned, rates = eval_vector(self._references, context).reshape(2, 2, 6)
+        contacts = eval_vector(self._contacts, context)
+        start = eval_vector(self._plan_start, context)
+        wrenches = eval_vector(self._wrenches, context).reshape(2, 6)
+        measured = eval_vector(self._poses, context).reshape(2, 6)
+        states, poses, speeds, landed = [], [], [], []
+        for i in range(2):
+            state = _unpack(before[i * _SIZE : (i + 1) * _SIZE])
+            if start[0] != before[-1]:
+                state = standing()
+            state, pose, rate = adapt(
+                state,
+                planned[i],
+                rates[i],
+                contacts[i] > 0.5,
+                wrenches[i, 2],
+                measured[i],
+                self._params,
+            )
+            states.append(_pack(state))
+            poses.append(pose)
+            speeds.append(rate)
+            landed.append(float(state.landed))
+        after: Vector = np.concatenate(
+            [*states, *poses, *speeds, landed, contacts[2:], start]
+        )
+        discrete.get_mutable_vector(int(self._state)).SetFromVector(after)

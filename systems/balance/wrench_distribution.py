@@ -1,0 +1,148 @@
+"""Sharing a net wrench among the feet, each inside its contact wrench cone."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import daqp
+import numpy as np
+from pydrake.math import RollPitchYaw
+
+from models.robot import Sole
+from systems.balance.contact_wrench_cone import contact_wrench_cone
+from systems.ports import Vector
+
+
+@dataclass(kw_only=True)
+class DistributionParams:
+    """Weights and limits of the quadratic programme."""
+
+    friction: float = 0.6
+    """mu of the pyramid that the wrenches are kept in; below the ground's, so that the
+    feet do not slide."""
+    edge_margin: float = 0.004
+    """The centre of pressure keeps this far inside the sole's edges, m."""
+    least_force: float = 5.0
+    """Normal force that a foot on the ground keeps at least, N."""
+    force_weight: float = 1.0
+    """Weight of the error in net force, 1/N^2."""
+    moment_weight: float = 10.0
+    """Weight of the error in net moment about horizontal axes, 1/(Nm)^2."""
+    yaw_weight: float = 3.0
+    """Weight of the error in net moment about the vertical, 1/(Nm)^2."""
+    tangential_cost: float = 1e-4
+    """Cost of tangential force, 1/N^2."""
+    moment_cost: tuple[float, float, float] = (0.02, 0.01, 0.05)
+    """Costs of a foot's moment about its centre, x, y, z, 1/(Nm)^2: keeps the centre of
+    pressure off the edges where both feet can share."""
+
+    def validate(self) -> None:
+        """Checks every field.
+
+        Raises:
+            ValueError: "field: reason, got x" for the first field that is wrong.
+        """
+        for name in ("friction", "force_weight", "moment_weight", "yaw_weight"):
+            if not 0.0 < getattr(self, name) < np.inf:
+                raise ValueError(f"{name}: must be positive, got {getattr(self, name)}")
+        for name in ("edge_margin", "least_force", "tangential_cost"):
+            if not 0.0 <= getattr(self, name) < np.inf:
+                raise ValueError(
+                    f"{name}: must not be negative, got {getattr(self, name)}"
+                )
+
+
+@lru_cache(maxsize=64)
+def _cone(half_length: float, half_width: float, friction: float) -> Vector:
+    cone = contact_wrench_cone(half_length, half_width, friction)
+    cone.setflags(write=False)
+    return cone
+
+
+def _cross_matrix(p: Vector) -> Vector:
+    return np.array([[0.0, -p[2], p[1]], [p[2], 0.0, -p[0]], [-p[1], p[0], 0.0]])
+
+
+def distribute_wrench(
+    net: Vector,
+    p_WCom: Vector,
+    foot_poses: Vector,
+    contacts: Vector,
+    lengths: Vector,
+    sole: Sole,
+    params: DistributionParams,
+) -> tuple[Vector, bool]:
+    """The foot wrenches that come nearest to a net wrench inside their cones.
+
+    Minimises the weighted error of the net wrench plus a small cost on what a foot
+    exerts off its centre, subject to the 16 inequalities of each contact wrench cone
+    (Caron 2015) on the part of the sole that carries.
+
+    Args:
+        net: net wrench wanted from the ground, (6,): force, then moment about the
+            CoM, in W, N and Nm.
+        p_WCom: the CoM, (3,), m.
+        foot_poses: sole frames X_WF, (2, 6), left first.
+        contacts: which feet are on the ground, (2,), above 0.5.
+        lengths: length of sole that carries, from the toe edge back, (2,), m.
+        sole: of both feet.
+        params: weights and limits.
+
+    Returns:
+        Wrenches of the ground on the feet, (2, 6): force, then moment about the origin
+        of F, in W; zero for a foot in the air. And whether the programme was solved.
+    """
+    wrenches = np.zeros((2, 6))
+    feet = [i for i in range(2) if contacts[i] > 0.5]
+    if not feet:
+        return wrenches, True
+    n = 6 * len(feet)
+    grasp = np.zeros((6, n))
+    cones = np.zeros((16 * len(feet), n))
+    upper = np.full(n + len(cones), 1e5)
+    lower = np.full(n + len(cones), -1e6)
+    upper[n:] = 0.0
+    cost = np.concatenate(
+        [[params.tangential_cost, params.tangential_cost, 0.0], params.moment_cost]
+    )
+    arms, rotations = [], []
+    for k, i in enumerate(feet):
+        block = slice(6 * k, 6 * k + 6)
+        rpy: Vector = foot_poses[i, 3:]
+        R_WF: Vector = RollPitchYaw(rpy).ToRotationMatrix().matrix()
+        p_FC = np.array([sole.toe - 0.5 * lengths[i], 0.0, 0.0])
+        arm = R_WF @ p_FC
+        offset = foot_poses[i, :3] + arm - p_WCom
+        grasp[:3, block][:, :3] = R_WF
+        grasp[3:, block][:, :3] = _cross_matrix(offset) @ R_WF
+        grasp[3:, block][:, 3:] = R_WF
+        half = 0.5 * lengths[i]
+        cones[16 * k : 16 * k + 16, block] = _cone(
+            max(half - params.edge_margin, 0.5 * half),
+            sole.half_width - params.edge_margin,
+            params.friction,
+        )
+        lower[6 * k + 2] = params.least_force
+        arms.append(arm)
+        rotations.append(R_WF)
+    weights = np.array(
+        [params.force_weight] * 3 + [params.moment_weight] * 2 + [params.yaw_weight]
+    )
+    weighted = weights[:, None] * grasp
+    hessian = grasp.T @ weighted + np.diag(np.tile(cost, len(feet)))
+    hessian += 1e-7 * np.eye(n)
+    solution, _, status, _ = daqp.solve(
+        hessian,
+        -weighted.T @ net,
+        cones,
+        upper,
+        lower,
+        np.zeros(len(upper), dtype=np.int32),
+    )
+    if status < 1:
+        return wrenches, False
+    for k, i in enumerate(feet):
+        force = rotations[k] @ solution[6 * k : 6 * k + 3]
+        moment = rotations[k] @ solution[6 * k + 3 : 6 * k + 6]
+        wrenches[i, :3] = force
+        wrenches[i, 3:] = moment + np.cross(arms[k], force)
+    return wrenches, True

@@ -1,0 +1,135 @@
+"""Whole-body tracking as a System: task references in, joint references out."""
+
+import numpy as np
+from pydrake.multibody.plant import MultibodyPlant
+from pydrake.systems.framework import BasicVector, Context, DiscreteValues, LeafSystem
+
+from models.robot import RobotModel
+from systems.plant_cache import declare_scratch_context
+from systems.ports import Vector, eval_vector, set_vector
+from systems.timing import timed
+from systems.tracking.whole_body_ik import IkParams, IkTarget, WholeBodyIk, integrate
+
+
+class IkTracker(LeafSystem):
+    """Integrates the whole-body IK: a reference motion of every joint and the base.
+
+    .. pydrake_system::
+
+        name: IkTracker
+        input_ports:
+        - com_reference
+        - foot_references
+        - contacts
+        - waist
+        output_ports:
+        - positions
+        - velocities
+        - accelerations
+        - joint_references
+
+    - `com_reference`: p_WCom, v_WCom and a_WCom wanted, (9,), m, m/s, m/s^2.
+    - `foot_references`: sole frames X_WF (x, y, z, roll, pitch, yaw), left then right,
+      then their rates, (24,), m, rad, m/s, rad/s.
+    - `contacts`: feet on the ground, left and right, 0 or 1, then two numbers that are
+      not used, (4,).
+    - `waist`: pelvis (roll, pitch, yaw) in W and their rates, (6,), rad, rad/s.
+    - `positions`: q of the reference motion, (nq,).
+    - `velocities`: v, (nv,).
+    - `accelerations`: how v changed over the last tick, (nv,).
+    - `joint_references`: q of the actuated joints, then v, (2 na,), rad, rad/s: what a
+      MultibodyPlant's `desired_state` port takes.
+
+    The discrete state is q, v and the acceleration.
+    """
+
+    def __init__(
+        self,
+        plant: MultibodyPlant,
+        robot: RobotModel,
+        params: IkParams,
+        positions: Vector,
+    ) -> None:
+        """Declares the ports.
+
+        Args:
+            plant: the robot alone, finalised.
+            robot: its names.
+            params: weights.
+            positions: q in the default context, (nq,).
+
+        Raises:
+            ValueError: a parameter is out of range, or positions has another size.
+        """
+        super().__init__()
+        nq, nv = plant.num_positions(), plant.num_velocities()
+        if positions.shape != (nq,):
+            raise ValueError(f"positions must be ({nq},), got {positions.shape}")
+        self._plant, self._params = plant, params
+        self._ik = WholeBodyIk(plant, robot, params)
+        self._nq, self._nv = nq, nv
+        joints = [
+            plant.get_joint_actuator(index).joint()
+            for index in plant.GetJointActuatorIndices()
+        ]
+        self._q_rows = np.array([joint.position_start() for joint in joints])
+        self._v_rows = np.array([joint.velocity_start() for joint in joints])
+        initial: Vector = np.concatenate([positions, np.zeros(2 * nv)])
+        self._state = self.DeclareDiscreteState(initial)
+        self._com = self.DeclareVectorInputPort("com_reference", 9)
+        self._feet = self.DeclareVectorInputPort("foot_references", 24)
+        self._contacts = self.DeclareVectorInputPort("contacts", 4)
+        self._waist = self.DeclareVectorInputPort("waist", 6)
+        self._scratch = declare_scratch_context(self, plant)
+        ticket = {self.discrete_state_ticket(self._state)}
+        for name, size, calc in (
+            ("positions", nq, self._calc_positions),
+            ("velocities", nv, self._calc_velocities),
+            ("accelerations", nv, self._calc_accelerations),
+            ("joint_references", 2 * len(joints), self._calc_joint_references),
+        ):
+            self.DeclareVectorOutputPort(
+                name, size, timed(self, calc), prerequisites_of_calc=ticket
+            )
+        self.DeclarePeriodicDiscreteUpdateEvent(
+            period_sec=params.period, offset_sec=0.0, update=timed(self, self._update)
+        )
+
+    def _values(self, context: Context) -> tuple[Vector, Vector, Vector]:
+        values = context.get_discrete_state(int(self._state)).value()
+        nq, nv = self._nq, self._nv
+        return values[:nq], values[nq : nq + nv], values[nq + nv :]
+
+    def _calc_positions(self, context: Context, output: BasicVector) -> None:
+        set_vector(output, self._values(context)[0])
+
+    def _calc_velocities(self, context: Context, output: BasicVector) -> None:
+        set_vector(output, self._values(context)[1])
+
+    def _calc_accelerations(self, context: Context, output: BasicVector) -> None:
+        set_vector(output, self._values(context)[2])
+
+    def _calc_joint_references(self, context: Context, output: BasicVector) -> None:
+        q, v, _ = self._values(context)
+        set_vector(output, np.concatenate([q[self._q_rows], v[self._v_rows]]))
+
+    def _update(self, context: Context, discrete: DiscreteValues) -> None:
+        q, v_before, _ = self._values(context)
+        com = eval_vector(self._com, context)
+        feet = eval_vector(self._feet, context).reshape(2, 2, 6)
+        waist = eval_vector(self._waist, context)
+        target = IkTarget(
+            com=com[:3],
+            com_velocity=com[3:6],
+            foot_poses=feet[0],
+            foot_rates=feet[1],
+            stance=eval_vector(self._contacts, context)[:2],
+            waist=waist[:3],
+            waist_rate=waist[3:],
+        )
+        plant_context = self._scratch(context)
+        self._plant.SetPositions(plant_context, q)
+        v, _ = self._ik.solve(plant_context, target)
+        q = integrate(self._plant, plant_context, v, self._params.period)
+        after: Vector = np.concatenate([q, v, (v - v_before) / self._params.period])
+        discrete.get_mutable_vector(int(self._state)).SetFromVector(after)

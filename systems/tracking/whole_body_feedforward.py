@@ -1,0 +1,135 @@
+"""Joint torques that a reference motion needs, given the wrenches under the feet."""
+
+import numpy as np
+from pydrake.multibody.plant import MultibodyPlant
+from pydrake.multibody.tree import JacobianWrtVariable, MultibodyForces
+from pydrake.systems.framework import BasicVector, Context, LeafSystem
+
+from models.robot import RobotModel
+from systems.plant_cache import declare_scratch_context
+from systems.ports import Vector, eval_vector, set_vector
+from systems.timing import timed
+from systems.values import FEET
+
+
+def needed_forces(
+    plant: MultibodyPlant, context: Context, acceleration: Vector
+) -> Vector:
+    """Generalised forces of a motion without contacts, M vdot + C v - g, (nv,)."""
+    forces: Vector = plant.CalcInverseDynamics(
+        context, acceleration, MultibodyForces(plant)
+    )
+    return forces
+
+
+def momentum_rate(plant: MultibodyPlant, context: Context, forces: Vector) -> Vector:
+    """Rate of angular momentum about the CoM that a motion needs, in W, (3,), Nm.
+
+    Args:
+        plant: the robot alone; its first six velocities are the floating base's spin
+            and translation in W.
+        context: at the motion's positions and velocities.
+        forces: what `needed_forces` gives.
+    """
+    p_WBase = plant.GetPositions(context)[4:7]
+    p_WCom = plant.CalcCenterOfMassPositionInWorld(context)
+    rate: Vector = forces[:3] + np.cross(p_WBase - p_WCom, forces[3:6])
+    return rate
+
+
+class WholeBodyFeedforward(LeafSystem):
+    """Torques of the reference motion under the wrenches that the stabiliser wants.
+
+    tau = M vdot + C v - g - sum J_F^T w_F, the actuated rows.
+
+    .. pydrake_system::
+
+        name: WholeBodyFeedforward
+        input_ports:
+        - positions
+        - velocities
+        - accelerations
+        - foot_wrenches
+        output_ports:
+        - torque
+        - momentum_rate
+
+    - `positions`: q of the reference motion, (nq,).
+    - `velocities`: v, (nv,).
+    - `accelerations`: vdot, (nv,).
+    - `foot_wrenches`: of the ground on the left and the right foot, each force then
+      moment about F, in W, (12,), N and Nm.
+    - `torque`: in the order of the actuators, within their effort limits, (na,), Nm.
+    - `momentum_rate`: rate of angular momentum about the CoM of the reference motion,
+      in W, (3,), Nm.
+    """
+
+    def __init__(
+        self, plant: MultibodyPlant, robot: RobotModel, largest_acceleration: float
+    ) -> None:
+        """Declares the ports.
+
+        Args:
+            plant: the robot alone, finalised.
+            robot: its names.
+            largest_acceleration: accelerations are clamped to this, rad/s^2: a tick in
+                which the reference velocity jumps is no reason for a torque spike.
+        """
+        super().__init__()
+        self._plant = plant
+        self._largest = largest_acceleration
+        self._feet = [plant.GetBodyByName(robot.foot_bodies[foot]) for foot in FEET]
+        self._p_BF: Vector = np.array([0.0, 0.0, -robot.sole.ankle_height])
+        actuators = [
+            plant.get_joint_actuator(index) for index in plant.GetJointActuatorIndices()
+        ]
+        self._rows = np.array([item.joint().velocity_start() for item in actuators])
+        self._effort = np.array([item.effort_limit() for item in actuators])
+        nq, nv = plant.num_positions(), plant.num_velocities()
+        self._q = self.DeclareVectorInputPort("positions", nq)
+        self._v = self.DeclareVectorInputPort("velocities", nv)
+        self._vdot = self.DeclareVectorInputPort("accelerations", nv)
+        self._wrenches = self.DeclareVectorInputPort("foot_wrenches", 12)
+        self._scratch = declare_scratch_context(self, plant)
+        motion = {port.ticket() for port in (self._q, self._v, self._vdot)}
+        self.DeclareVectorOutputPort(
+            "torque",
+            len(actuators),
+            timed(self, self._calc_torque),
+            prerequisites_of_calc=motion | {self._wrenches.ticket()},
+        )
+        self.DeclareVectorOutputPort(
+            "momentum_rate",
+            3,
+            timed(self, self._calc_momentum_rate),
+            prerequisites_of_calc=motion,
+        )
+
+    def _forces(self, context: Context) -> tuple[Context, Vector]:
+        scratch = self._scratch(context)
+        self._plant.SetPositions(scratch, eval_vector(self._q, context))
+        self._plant.SetVelocities(scratch, eval_vector(self._v, context))
+        acceleration: Vector = np.clip(
+            eval_vector(self._vdot, context), -self._largest, self._largest
+        )
+        return scratch, needed_forces(self._plant, scratch, acceleration)
+
+    def _calc_torque(self, context: Context, output: BasicVector) -> None:
+        wrenches = eval_vector(self._wrenches, context).reshape(2, 6)
+        scratch, forces = self._forces(context)
+        world = self._plant.world_frame()
+        for body, wrench in zip(self._feet, wrenches, strict=True):
+            J = self._plant.CalcJacobianSpatialVelocity(
+                scratch,
+                JacobianWrtVariable.kV,
+                body.body_frame(),
+                self._p_BF,
+                world,
+                world,
+            )
+            forces = forces - J.T @ np.concatenate([wrench[3:], wrench[:3]])
+        set_vector(output, np.clip(forces[self._rows], -self._effort, self._effort))
+
+    def _calc_momentum_rate(self, context: Context, output: BasicVector) -> None:
+        scratch, forces = self._forces(context)
+        set_vector(output, momentum_rate(self._plant, scratch, forces))

@@ -1,0 +1,315 @@
+"""Velocity-level inverse kinematics of a floating-base robot as one QP.
+
+Objective and constraints are those of the stair paper (Sec. 6.1): CoM, free foot and
+posture are tracked, feet on the ground are held, joint speeds and positions stay
+within their limits. The pelvis' orientation is tracked besides.
+"""
+
+from dataclasses import dataclass
+
+import daqp
+import numpy as np
+from pydrake.math import RollPitchYaw, RotationMatrix
+from pydrake.multibody.plant import MultibodyPlant
+from pydrake.multibody.tree import JacobianWrtVariable
+from pydrake.systems.framework import Context
+
+from models.robot import RobotModel
+from systems.ports import Vector
+from systems.values import FEET
+
+
+@dataclass(kw_only=True)
+class IkParams:
+    """Weights and gains of the QP."""
+
+    period: float = 0.005
+    """Between ticks, s."""
+    com_weight: float = 1.0
+    """w_CoM of the horizontal CoM velocity error, s^2/m^2 (stair paper, Sec. 6.1)."""
+    height_weight: float = 0.3
+    """Weight of the CoM's vertical velocity error; lower, so that a leg near its reach
+    gives way in height rather than in balance."""
+    waist_weight: float = 0.05
+    """Weight of the pelvis' roll and pitch rates, s^2/rad^2."""
+    waist_yaw_weight: float = 0.01
+    """Weight of the pelvis' yaw rate, s^2/rad^2."""
+    free_weight: float = 0.2
+    """w_free of the free foot's velocity error (stair paper, Sec. 6.1)."""
+    posture_weight: float = 2e-4
+    """w_ref of joints above the legs (the paper's 0.001, per its gain)."""
+    leg_weight: float = 1e-6
+    """The same for the legs, which the tasks determine but at singularities."""
+    damping: float = 1e-7
+    """Weight of every velocity; keeps near-straight knees tame."""
+    gain: float = 20.0
+    """K: task and limit errors decay with this rate, 1/s."""
+    posture_gain: float = 2.0
+    """Rate at which the posture is sought, 1/s."""
+    speed_share: float = 0.9
+    """Share of the joints' speed limits that is used."""
+    position_margin: float = 0.02
+    """Distance kept from the joints' position limits, rad."""
+
+    def validate(self) -> None:
+        """Checks every field.
+
+        Raises:
+            ValueError: "field: reason, got x" for the first field that is wrong.
+        """
+        for name in ("period", "com_weight", "height_weight", "damping", "gain"):
+            if not 0.0 < getattr(self, name) < np.inf:
+                raise ValueError(f"{name}: must be positive, got {getattr(self, name)}")
+        for name in (
+            "waist_weight",
+            "waist_yaw_weight",
+            "free_weight",
+            "posture_weight",
+            "leg_weight",
+            "posture_gain",
+            "position_margin",
+        ):
+            if not 0.0 <= getattr(self, name) < np.inf:
+                raise ValueError(
+                    f"{name}: must not be negative, got {getattr(self, name)}"
+                )
+        if not 0.0 < self.speed_share <= 1.0:
+            raise ValueError(f"speed_share: must lie in (0, 1], got {self.speed_share}")
+
+
+@dataclass(frozen=True)
+class IkTarget:
+    """What the whole body is to do now."""
+
+    com: Vector
+    """p_WCom, (3,), m."""
+    com_velocity: Vector
+    """(3,), m/s."""
+    foot_poses: Vector
+    """X_WF of left and right as (x, y, z, roll, pitch, yaw), (2, 6)."""
+    foot_rates: Vector
+    """Their rates, (2, 6)."""
+    stance: Vector
+    """Which feet are held, (2,), above 0.5."""
+    waist: Vector
+    """Pelvis (roll, pitch, yaw), (3,), rad."""
+    waist_rate: Vector
+    """Its rate, (3,), rad/s."""
+
+
+def rotation_error(wanted: Vector, R_WB: RotationMatrix) -> Vector:
+    """Rotation vector in W that turns B to the wanted roll, pitch, yaw, (3,), rad."""
+    R_WD = RollPitchYaw(wanted).ToRotationMatrix()
+    turn = R_WD.multiply(R_WB.inverse()).ToAngleAxis()
+    error: Vector = turn.angle() * turn.axis()
+    return error
+
+
+class WholeBodyIk:
+    """The QP for one robot: what does not change from tick to tick.
+
+    The solver works on a plant that holds the robot alone and on a context of the
+    caller's; it keeps no state of its own.
+    """
+
+    def __init__(
+        self, plant: MultibodyPlant, robot: RobotModel, params: IkParams
+    ) -> None:
+        """Gathers frames, limits, posture and weights.
+
+        Args:
+            plant: the robot alone, finalised, floating base first.
+            robot: its names.
+            params: weights.
+
+        Raises:
+            ValueError: a parameter is out of range.
+        """
+        params.validate()
+        self._plant, self._params = plant, params
+        self._feet = [plant.GetBodyByName(robot.foot_bodies[foot]) for foot in FEET]
+        self._pelvis = plant.GetBodyByName(robot.base_body)
+        self._p_BF: Vector = np.array([0.0, 0.0, -robot.sole.ankle_height])
+        nv = plant.num_velocities()
+        self._lower = plant.GetPositionLowerLimits()[7:] + params.position_margin
+        self._upper = plant.GetPositionUpperLimits()[7:] - params.position_margin
+        self._speed = params.speed_share * plant.GetVelocityUpperLimits()[6:]
+        self._posture_weight = np.full(nv, params.posture_weight)
+        self._posture_weight[:6] = 0.0
+        for leg in robot.leg_joints.values():
+            for name in leg:
+                index = plant.GetJointByName(name).velocity_start()
+                self._posture_weight[index] = params.leg_weight
+        self.posture = default_posture(plant, robot)
+
+    def solve(self, context: Context, target: IkTarget) -> tuple[Vector, bool]:
+        """The generalised velocity of this tick.
+
+        Args:
+            context: of the plant, with the present reference positions.
+            target: what is to be tracked.
+
+        Returns:
+            v, (nv,), and whether the feet could be held exactly; where they could not,
+            their error is minimised with a high weight.
+        """
+        plant, params, gain = self._plant, self._params, self._params.gain
+        world = plant.world_frame()
+        kv = JacobianWrtVariable.kV
+        q = plant.GetPositions(context)
+        J_com = plant.CalcJacobianCenterOfMassTranslationalVelocity(
+            context, kv, world, world
+        )
+        p_WCom = plant.CalcCenterOfMassPositionInWorld(context)
+        origin: Vector = np.zeros(3)
+        J_waist = plant.CalcJacobianSpatialVelocity(
+            context, kv, self._pelvis.body_frame(), origin, world, world
+        )[:3]
+        R_WP = self._pelvis.EvalPoseInWorld(context).rotation()
+        v_com = target.com_velocity + gain * (target.com - p_WCom)
+        w_waist = spin_of(target.waist, target.waist_rate)
+        w_waist = w_waist + 0.5 * gain * rotation_error(target.waist, R_WP)
+        J_feet, v_feet = self._foot_tasks(context, target)
+        nv = len(self._posture_weight)
+        hessian = np.diag(self._posture_weight + params.damping)
+        gradient = np.zeros(nv)
+        gradient[6:] = -self._posture_weight[6:] * (
+            params.posture_gain * (self.posture[7:] - q[7:])
+        )
+        for J, v, weight in (
+            (J_com, v_com, [params.com_weight] * 2 + [params.height_weight]),
+            (
+                J_waist,
+                w_waist,
+                [params.waist_weight] * 2 + [params.waist_yaw_weight],
+            ),
+        ):
+            weighted = J.T * np.array(weight)
+            hessian += weighted @ J
+            gradient -= weighted @ v
+        upper, lower = np.full(nv, 1e3), np.full(nv, -1e3)
+        upper[6:] = np.minimum(self._speed, gain * (self._upper - q[7:]))
+        lower[6:] = np.maximum(-self._speed, gain * (self._lower - q[7:]))
+        # A joint beyond a limit may not be asked to return faster than it can.
+        upper[6:] = np.maximum(upper[6:], -self._speed)
+        lower[6:] = np.minimum(lower[6:], upper[6:])
+        held = np.repeat(target.stance > 0.5, 6)
+        free = ~held
+        weighted = params.free_weight * J_feet[free].T
+        hessian += weighted @ J_feet[free]
+        gradient -= weighted @ v_feet[free]
+        v, solved = _solve_qp(
+            hessian, gradient, upper, lower, J_feet[held], v_feet[held]
+        )
+        if solved:
+            return v, True
+        weighted = 10.0 * params.com_weight * J_feet[held].T
+        hessian += weighted @ J_feet[held]
+        gradient -= weighted @ v_feet[held]
+        v, solved = _solve_qp(hessian, gradient, upper, lower, J_feet[:0], v_feet[:0])
+        if not solved:
+            raise RuntimeError("the IK's QP has no solution within the joint limits")
+        return v, False
+
+    def _foot_tasks(self, context: Context, target: IkTarget) -> tuple[Vector, Vector]:
+        """Jacobians of both soles, (12, nv), and the velocities wanted, (12,)."""
+        plant, gain = self._plant, self._params.gain
+        world = plant.world_frame()
+        jacobians, velocities = [], []
+        for body, pose, rate in zip(
+            self._feet, target.foot_poses, target.foot_rates, strict=True
+        ):
+            jacobians.append(
+                plant.CalcJacobianSpatialVelocity(
+                    context,
+                    JacobianWrtVariable.kV,
+                    body.body_frame(),
+                    self._p_BF,
+                    world,
+                    world,
+                )
+            )
+            X_WB = body.EvalPoseInWorld(context)
+            velocities += [
+                spin_of(pose[3:], rate[3:])
+                + gain * rotation_error(pose[3:], X_WB.rotation()),
+                rate[:3] + gain * (pose[:3] - X_WB.multiply(self._p_BF)),
+            ]
+        return np.vstack(jacobians), np.concatenate(velocities)
+
+
+def spin_of(rpy: Vector, rate: Vector) -> Vector:
+    """Angular velocity in W of a frame at roll, pitch, yaw with these rates, (3,)."""
+    spin: Vector = RollPitchYaw(rpy).CalcAngularVelocityInParentFromRpyDt(rate)
+    return spin
+
+
+def default_posture(plant: MultibodyPlant, robot: RobotModel) -> Vector:
+    """Positions with the robot's posture and the base upright at the origin, (nq,)."""
+    q: Vector = np.zeros(plant.num_positions())
+    q[0] = 1.0
+    for name, angle in robot.posture.items():
+        q[plant.GetJointByName(name).position_start()] = angle
+    return q
+
+
+def integrate(
+    plant: MultibodyPlant, context: Context, v: Vector, period: float
+) -> Vector:
+    """Positions after moving with v for a period, unit quaternion, (nq,)."""
+    q = plant.GetPositions(context)
+    rate: Vector = np.asarray(plant.MapVelocityToQDot(context, v))
+    after: Vector = q + period * rate
+    after[:4] /= np.linalg.norm(after[:4])
+    return after
+
+
+def solve_posture(
+    ik: WholeBodyIk,
+    plant: MultibodyPlant,
+    target: IkTarget,
+    period: float = 0.02,
+    ticks: int = 400,
+) -> Vector:
+    """Positions at which the robot rests on a target, from its default posture.
+
+    Args:
+        ik: the QP.
+        plant: the robot alone.
+        target: with zero velocities.
+        period: of a tick, s.
+        ticks: how many.
+
+    Returns:
+        Positions, (nq,).
+    """
+    context = plant.CreateDefaultContext()
+    q = ik.posture.copy()
+    q[4:7] = target.com
+    for _ in range(ticks):
+        plant.SetPositions(context, q)
+        v, _ = ik.solve(context, target)
+        q = integrate(plant, context, v, period)
+    return q
+
+
+def _solve_qp(
+    hessian: Vector,
+    gradient: Vector,
+    upper: Vector,
+    lower: Vector,
+    A: Vector,
+    b: Vector,
+) -> tuple[Vector, bool]:
+    """Minimises within bounds, with A x = b."""
+    sense = np.zeros(len(upper) + len(b), dtype=np.int32)
+    sense[len(upper) :] = 5  # equality, in DAQP's code
+    x, _, status, _ = daqp.solve(
+        hessian,
+        gradient,
+        np.ascontiguousarray(A),
+        np.concatenate([upper, b]),
+        np.concatenate([lower, b]),
+        sense,
+    )
+    return np.asarray(x, dtype=np.float64), status >= 1
