@@ -1,0 +1,155 @@
+"""Every System's docstring names its ports, exactly and in order.
+
+A new System joins by an entry in `FACTORIES`; one without an entry fails here.
+"""
+
+import importlib
+import inspect
+import pkgutil
+import re
+from collections.abc import Callable
+from functools import cache
+
+import numpy as np
+import pytest
+import yaml
+from pydrake.common.value import Value
+from pydrake.geometry import SceneGraph
+from pydrake.math import RigidTransform
+from pydrake.multibody.plant import MultibodyPlant
+from pydrake.multibody.tree import ModelInstanceIndex
+from pydrake.systems.framework import LeafSystem
+
+import systems
+from models.jvrc1 import JVRC1
+from models.robot_loader import add_robot
+from models.solids import triangle_mesh
+from systems.balance.landing_adaptor import LandingAdaptor, LandingParams
+from systems.balance.stabilizer import Stabilizer, StabilizerParams
+from systems.balance.static_stability import StaticStability
+from systems.balance.zmp_preview_controller import ZmpPreviewController
+from systems.perception.plane_segmenter import PlaneSegmenter
+from systems.perception.scan_assembler import ScanAssembler, ScanAssemblerParams
+from systems.perception.staircase_map import StaircaseMap
+from systems.planning.footstep_params import FootstepPlannerParams
+from systems.planning.footstep_planner import FootstepPlanner
+from systems.planning.motion_player import MotionPlayer
+from systems.sensing.contact_monitor import ContactMonitor, WatchedGeometry
+from systems.sensing.foot_wrench_sensor import FootWrenchSensor
+from systems.sensing.kinematic_state import KinematicState
+from systems.sensing.tilting_lidar import TiltingLidar, TiltingLidarParams
+from systems.tracking.ik_tracker import IkTracker
+from systems.tracking.whole_body_feedforward import WholeBodyFeedforward
+from systems.tracking.whole_body_ik import IkParams
+from systems.value_log_sink import ValueLogSink
+
+
+@cache
+def robot_alone() -> tuple[MultibodyPlant, ModelInstanceIndex]:
+    """The robot in an empty world, finalised, kept for all factories."""
+    plant, scene_graph = MultibodyPlant(time_step=0.0), SceneGraph()
+    plant.RegisterAsSourceForSceneGraph(scene_graph)
+    instance = add_robot(plant, scene_graph, JVRC1)
+    plant.Finalize()
+    return plant, instance
+
+
+def _plant() -> MultibodyPlant:
+    return robot_alone()[0]
+
+
+FACTORIES: dict[type[LeafSystem], Callable[[], LeafSystem]] = {
+    ContactMonitor: lambda: ContactMonitor(WatchedGeometry((), (), {}, {}), 0.002),
+    FootWrenchSensor: lambda: FootWrenchSensor(*robot_alone(), JVRC1),
+    FootstepPlanner: lambda: FootstepPlanner(FootstepPlannerParams(), JVRC1.sole),
+    IkTracker: lambda: IkTracker(
+        _plant(), JVRC1, IkParams(), np.zeros(_plant().num_positions())
+    ),
+    KinematicState: lambda: KinematicState(_plant(), JVRC1),
+    LandingAdaptor: lambda: LandingAdaptor(LandingParams(), np.zeros(12)),
+    MotionPlayer: lambda: MotionPlayer(320),
+    PlaneSegmenter: PlaneSegmenter,
+    ScanAssembler: lambda: ScanAssembler(
+        ScanAssemblerParams(),
+        beam_angles=np.zeros(3),
+        mount_body=1,
+        X_BM=RigidTransform(),
+    ),
+    Stabilizer: lambda: Stabilizer(StabilizerParams(), JVRC1.sole, 62.4),
+    StaircaseMap: StaircaseMap,
+    StaticStability: lambda: StaticStability(0.1, 0.1, 0.05, 0.7),
+    TiltingLidar: lambda: TiltingLidar(
+        TiltingLidarParams(),
+        mount_body=1,
+        X_BM=RigidTransform(),
+        scene=triangle_mesh([]),
+    ),
+    ValueLogSink: lambda: ValueLogSink(Value(""), 0.1),
+    WholeBodyFeedforward: lambda: WholeBodyFeedforward(_plant(), JVRC1, 100.0),
+    ZmpPreviewController: ZmpPreviewController,
+}
+
+
+def find_systems() -> list[type[LeafSystem]]:
+    """Every public LeafSystem that a module under systems/ defines."""
+    found = []
+    for info in pkgutil.walk_packages(systems.__path__, "systems."):
+        module = importlib.import_module(info.name)
+        found += [
+            member
+            for name, member in inspect.getmembers(module, inspect.isclass)
+            if issubclass(member, LeafSystem)
+            and member.__module__ == info.name
+            and not name.startswith("_")
+        ]
+    return sorted(found, key=lambda system: system.__qualname__)
+
+
+def documented_ports(system: type[LeafSystem]) -> dict[str, object]:
+    """The `.. pydrake_system::` block of a System's docstring."""
+    text = inspect.getdoc(system) or ""
+    block = re.search(
+        r"^\.\. pydrake_system::\n\n((?: {4}.*\n|\n)+)", text + "\n", re.M
+    )
+    assert block, f"{system.__qualname__} has no pydrake_system block"
+    return yaml.safe_load(inspect.cleandoc(block.group(1)))
+
+
+@pytest.mark.parametrize("system", find_systems(), ids=lambda s: s.__qualname__)
+def test_docstring_names_the_ports(system: type[LeafSystem]) -> None:
+    """The block has the class's name and the real ports in their order."""
+    assert system in FACTORIES, f"{system.__qualname__} has no entry in FACTORIES"
+    instance = FACTORIES[system]()
+    real = {
+        "name": system.__qualname__,
+        "input_ports": [
+            instance.get_input_port(index).get_name()
+            for index in range(instance.num_input_ports())
+        ],
+        "output_ports": [
+            instance.get_output_port(index).get_name()
+            for index in range(instance.num_output_ports())
+        ],
+    }
+    assert documented_ports(system) == real
+
+
+@pytest.mark.parametrize("system", find_systems(), ids=lambda s: s.__qualname__)
+def test_docstring_tells_of_every_port(system: type[LeafSystem]) -> None:
+    """Below the block every port has its own line: quantity, frame, shape, unit."""
+    text = inspect.getdoc(system) or ""
+    block = documented_ports(system)
+    for port in {*block["input_ports"], *block["output_ports"]}:
+        assert re.search(rf"^\s*- .*`{re.escape(port)}`.*:", text, re.M), port
+
+
+@pytest.mark.parametrize("system", find_systems(), ids=lambda s: s.__qualname__)
+def test_file_is_named_after_its_system(system: type[LeafSystem]) -> None:
+    """One public System a file, named after it."""
+    snake = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", system.__qualname__).lower()
+    assert system.__module__.rpartition(".")[2] == snake
+
+
+def test_registry_holds_systems_that_exist() -> None:
+    """An entry for a System that is gone is a leftover."""
+    assert set(FACTORIES) <= set(find_systems())
