@@ -132,6 +132,9 @@ def filter_motion(
 ) -> ComMotion:
     """The second stage of preview, Eq. 19: p_ref2 = p_ref1 - p_MB is followed too.
 
+    The motion must rest for two previews before its first step: the first stage moves
+    one preview ahead of the step, and the second previews what the first does.
+
     Args:
         motion: of the first stage, n ticks.
         zmp_ref: p_ref1, (n, 2), m.
@@ -153,6 +156,8 @@ def filter_motion_varying_height(
     params: ZmpPreviewParams,
 ) -> ComMotion:
     """The same second stage on `systems.balance.zmp_tracking`, exact on stairs.
+
+    It knows the whole future and needs no more rest than the first stage did.
 
     Args:
         motion: of the first stage, n ticks.

@@ -87,7 +87,8 @@ def test_margin_of_what_has_no_inside() -> None:
 
 def test_hausdorff_distance() -> None:
     """Of a shifted square, of a part, of nothing."""
-    assert hausdorff_distance(SQUARE, SQUARE + np.array([0.1, 0.0])) == pytest.approx(0.1)
+    shifted = SQUARE + np.array([0.1, 0.0])
+    assert hausdorff_distance(SQUARE, shifted) == pytest.approx(0.1)
     assert hausdorff_distance(SQUARE, SQUARE * 0.5) == pytest.approx(np.sqrt(2.0))
     assert hausdorff_distance(np.zeros((0, 2)), SQUARE) == np.inf
     assert hausdorff_distance(np.zeros((0, 2)), np.zeros((0, 2))) == 0.0

@@ -310,7 +310,7 @@ def test_zmp_support_area_on_tilted_soles_is_what_forces_can_do() -> None:
 
 
 def test_required_friction_is_the_slope_s() -> None:
-    """The tangent of a pitch; nothing on the level; none is enough past the vertical."""
+    """The tangent of a pitch, nothing on the level, infinite upside down."""
     slope = [foot(0.0, 0.0, 0.0, 0.0, 0.35, 0.0)]
     assert required_friction(slope) == pytest.approx(np.tan(0.35), abs=1e-6)
     above = required_friction(slope, np.array([0.02, 0.01]))
