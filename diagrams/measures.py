@@ -189,8 +189,8 @@ def swing_clearance(
     An edge counts in a swing when the toes are before it at lift-off and beyond it at
     touch-down. In the plane across the edge the sole is the segment from heel to toe;
     where the heel stays before the edge (the sole lands overhanging) the toe alone is
-    measured. Negative where the sole passes beneath the edge. None where no edge was
-    passed.
+    measured. What has passed may come down as near to the edge as it likes. Negative
+    where the sole passes beneath the edge. None where no edge was passed.
 
     Args:
         corners: of the sole in the order of `TrueMotion.sole_corners`, (n, 4, 3), m.
@@ -215,7 +215,8 @@ def swing_clearance(
             if not p_toe[0, 0] < 0.0 < p_toe[-1, 0]:
                 continue
             tail = p_heel if p_heel[-1, 0] > 0.0 else p_toe
-            clearances.append(_least_distance_to_origin(tail, p_toe))
+            passed = int(np.flatnonzero(tail[:, 0] <= 0.0)[-1]) + 1
+            clearances.append(_least_distance_to_origin(tail[:passed], p_toe[:passed]))
     return min(clearances, default=None)
 
 

@@ -1,6 +1,10 @@
 """A task that any machine can run in a second: the robot stands, a clock ends it."""
 
+from collections.abc import Callable
+from dataclasses import dataclass
+
 import numpy as np
+import pytest
 from pydrake.common.value import Value
 from pydrake.math import RigidTransform
 from pydrake.multibody.plant import AddMultibodyPlant, MultibodyPlantConfig
@@ -16,10 +20,12 @@ from models.scene import SceneParams
 from models.solids import add_solids
 from models.staircase import StaircaseParams
 from systems.sensing.contact_monitor import ContactMonitor, watched_geometry
+from systems.sensing.foot_wrench_sensor import FootWrenchSensor
 from systems.timing import timed
-from systems.values import TaskStatus
+from systems.values import FEET, TaskStatus
 
 TIME_STEP = 2e-3
+WRENCH = ("fx", "fy", "fz", "mx", "my", "mz")
 
 
 class Clock(LeafSystem):
@@ -50,6 +56,20 @@ class Clock(LeafSystem):
             raise self._last
         else:
             status.set_value(self._last)
+
+
+@dataclass(frozen=True)
+class Standing:
+    """What the tests of a run build on, as a fixture."""
+
+    task: Callable[..., TaskDiagram]
+    scenario: Callable[..., Scenario]
+
+
+@pytest.fixture
+def standing() -> Standing:
+    """Builders of the task and of the scenario that goes with it."""
+    return Standing(standing_task, standing_scenario)
 
 
 def standing_task(
@@ -132,6 +152,20 @@ def standing_task(
         plant.get_net_actuation_output_port(robot),
         tuple(joint.name() for joint in joints),
         "Nm",
+        0.005,
+    )
+    sensor = builder.AddNamedSystem("station", FootWrenchSensor(plant, robot, JVRC1))
+    builder.Connect(
+        plant.get_contact_results_output_port(), sensor.GetInputPort("contact_results")
+    )
+    builder.Connect(
+        plant.get_body_poses_output_port(), sensor.GetInputPort("body_poses")
+    )
+    signals.add_vector(
+        "station.foot_wrenches",
+        sensor.GetOutputPort("foot_wrenches"),
+        tuple(f"{foot}_{part}" for foot in FEET for part in WRENCH),
+        ("N", "N", "N", "Nm", "Nm", "Nm") * 2,
         0.005,
     )
     signals.add_value("executive.status", clock.GetOutputPort("status"), 0.005)

@@ -1,0 +1,197 @@
+"""What a run is measured by, on motions whose measures are known."""
+
+import numpy as np
+import pytest
+from pydrake.math import RigidTransform, RollPitchYaw
+
+from diagrams.measures import (
+    Interval,
+    contact_intervals,
+    foot_slip,
+    foot_zmp,
+    measured_zmp,
+    nosings,
+    stands_on,
+    swing_clearance,
+    zmp_margins,
+)
+from models.staircase import StaircaseParams, Tread
+
+WEIGHT = 600.0
+HEEL, TOE, HALF = 0.075, 0.15, 0.042
+CORNERS_F = np.array(
+    [[-HEEL, -HALF, 0], [TOE, -HALF, 0], [TOE, HALF, 0], [-HEEL, HALF, 0]]
+)
+
+
+def sole(
+    x: float, y: float = 0.0, z: float = 0.0, pitch: float = 0.0, yaw: float = 0.0
+):
+    """Corners of a sole in W, (4, 3)."""
+    X_WF = RigidTransform(RollPitchYaw(0.0, pitch, yaw), np.array([x, y, z]))
+    return np.array(X_WF.multiply(CORNERS_F.T)).T
+
+
+def test_contact_begins_loaded_and_ends_lifted() -> None:
+    """Between the two thresholds a foot keeps the state it was in."""
+    shares = np.array([0.1, 0.3, 0.1, 0.05, 0.3, 0.01, 0.1, 0.25])
+    assert contact_intervals(shares * WEIGHT, WEIGHT) == [
+        Interval(1, 5),
+        Interval(7, 8),
+    ]
+
+
+def test_slip_is_measured_within_a_contact_only() -> None:
+    """A step of 30 cm is no slip; 12 mm of sliding while loaded is."""
+    x = np.concatenate([np.zeros(10), np.linspace(0.0, 0.3, 10), np.full(10, 0.3)])
+    x[25:] += 0.012
+    force = np.full(30, WEIGHT)
+    force[10:20] = 0.0
+    corners = np.stack([sole(value) for value in x])
+    assert foot_slip(corners, force, WEIGHT) == pytest.approx(0.012)
+    assert foot_slip(corners, np.zeros(30), WEIGHT) is None
+
+
+def test_an_unloaded_touch_may_slide() -> None:
+    """What a foot does while it hardly bears anything is not slip."""
+    corners = np.stack([sole(0.0), sole(0.0), sole(0.05)])
+    force = np.array([0.5, 0.5, 0.1]) * WEIGHT
+    assert foot_slip(corners, force, WEIGHT) == 0.0
+
+
+def test_rolling_over_the_toes_is_no_slip_but_turning_is() -> None:
+    """A lifted heel swings about the toe edge; a yawing foot has no fixed edge."""
+    pitches = np.linspace(0.0, 0.6, 20)
+    rolling = np.stack(
+        [sole(TOE * (1.0 - np.cos(p)), z=TOE * np.sin(p), pitch=p) for p in pitches]
+    )
+    force = np.full(20, WEIGHT)
+    assert np.abs(rolling[:, 1, :] - rolling[0, 1, :]).max() < 1e-12
+    assert foot_slip(rolling, force, WEIGHT) == pytest.approx(0.0, abs=1e-9)
+    turning = np.stack([sole(0.0, yaw=p) for p in pitches])
+    slip = foot_slip(turning, force, WEIGHT)
+    assert slip == pytest.approx(2.0 * np.sin(0.3) * np.hypot(HEEL, HALF))
+
+
+def test_zmp_of_one_foot_is_where_its_force_acts() -> None:
+    """A force at a known point of the sole gives that point back, on a turned foot."""
+    X_WF = RigidTransform(RollPitchYaw(0.05, -0.1, 0.7), np.array([1.0, 2.0, 0.4]))
+    p_F, force = np.array([0.06, -0.02, 0.0]), np.array([30.0, -20.0, 500.0])
+    wrench = np.concatenate([force, np.cross(p_F, force)])
+    zmp = foot_zmp(X_WF.GetAsMatrix4()[None], wrench[None])
+    np.testing.assert_allclose(zmp[0], X_WF.multiply(p_F), atol=1e-12)
+
+
+def flat_feet() -> tuple[np.ndarray, np.ndarray]:
+    """Poses of two feet 20 cm apart, one sample."""
+    return tuple(
+        RigidTransform(np.array([0.0, y, 0.0])).GetAsMatrix4()[None]
+        for y in (0.1, -0.1)
+    )
+
+
+def test_measured_zmp_is_weighted_by_load() -> None:
+    """Three quarters of the load on the left foot put it there by as much."""
+    wrenches = [np.array([[0, 0, share * WEIGHT, 0, 0, 0]]) for share in (0.75, 0.25)]
+    zmp = measured_zmp(flat_feet(), tuple(wrenches), WEIGHT)
+    np.testing.assert_allclose(zmp, [[0.0, 0.05]], atol=1e-12)
+    nothing = (np.zeros((1, 6)), np.zeros((1, 6)))
+    assert np.isnan(measured_zmp(flat_feet(), nothing, WEIGHT)).all()
+
+
+def test_margin_is_the_distance_to_the_edge_of_the_hull() -> None:
+    """Positive inside, negative outside, of one sole or of both."""
+    corners = tuple(sole(0.0, y)[None].repeat(4, axis=0) for y in (0.1, -0.1))
+    zmp = np.array([[0.0, 0.1], [0.0, 0.0], [0.0, 0.0], [np.nan, np.nan]])
+    left = np.array([1.0, 0.5, 1.0, 0.0]) * WEIGHT
+    right = np.array([0.0, 0.5, 0.0, 0.0]) * WEIGHT
+    margins = zmp_margins(zmp, corners, (left, right), WEIGHT)
+    np.testing.assert_allclose(margins[:3], [HALF, HEEL, -(0.1 - HALF)], atol=1e-12)
+    assert np.isnan(margins[3])
+
+
+def test_lifted_corners_do_not_support() -> None:
+    """A foot on its toes supports on its toe edge alone."""
+    rolling = sole(0.0, pitch=0.3)[None]
+    far = sole(9.0)[None]
+    toe_x = float(rolling[0, 1, 0])
+    margins = zmp_margins(
+        np.array([[toe_x - 0.05, 0.0]]),
+        (rolling, far),
+        (np.array([WEIGHT]), np.zeros(1)),
+        WEIGHT,
+    )
+    assert margins[0] == pytest.approx(-0.05)
+
+
+@pytest.fixture
+def treads() -> tuple[Tread, ...]:
+    """Two treads that go up along y, so that no axis is taken for granted."""
+    return StaircaseParams(steps=2, rise=0.2, run=0.27, x=0.0, yaw=np.pi / 2).treads()
+
+
+@pytest.mark.parametrize(
+    ("p", "expected"),
+    [
+        ((0.0, 0.36, 0.4), True),
+        ((0.0, 0.36, 0.409), True),
+        ((0.0, 0.36, 0.411), False),
+        ((0.0, 0.36, 0.389), False),
+        ((0.0, 0.30, 0.4), True),  # the heel overhangs by 4.5 cm of 22.5
+        ((0.0, 0.28, 0.4), False),  # by 6.5 cm
+        ((0.5, 0.36, 0.4), False),
+    ],
+)
+def test_a_sole_stands_on_the_tread_that_bears_it(treads, p, expected) -> None:
+    """Its height within 1 cm, three quarters of its area over the tread."""
+    corners = sole(*p, yaw=np.pi / 2)
+    assert stands_on(corners, treads[1]) is expected
+    assert not stands_on(corners, treads[0])
+
+
+def test_a_tilted_sole_does_not_stand(treads) -> None:
+    """One corner 3 cm up is not at rest."""
+    assert not stands_on(sole(0.0, 0.36, 0.4, pitch=-0.2, yaw=np.pi / 2), treads[1])
+
+
+def swing(height: float, landing: float) -> tuple[np.ndarray, np.ndarray]:
+    """A flat sole that rises, passes the nosing at x = 0, z = 0.2 and comes down."""
+    lift_off = -TOE - 0.05
+    path = np.vstack(
+        [
+            np.linspace([lift_off, 0.0], [lift_off, height], 200),
+            np.linspace([lift_off, height], [landing, height], 400)[1:],
+            np.linspace([landing, height], [landing, 0.2], 200)[1:],
+        ]
+    )
+    corners = np.stack([sole(x, z=z) for x, z in path])
+    force = np.zeros(len(path))
+    force[[0, -1]] = WEIGHT
+    return corners, force
+
+
+def test_clearance_over_a_nosing() -> None:
+    """A sole that passes 3 cm above clears it by 3 cm, wherever it lands beyond."""
+    edges = nosings(StaircaseParams(steps=1, x=0.0).treads())
+    for landing in (0.1, 0.2):
+        corners, force = swing(0.23, landing)
+        clearance = swing_clearance(corners, force, WEIGHT, edges)
+        assert clearance == pytest.approx(0.03, abs=1e-3)
+
+
+def test_clearance_of_an_overhanging_landing_is_that_of_the_toes() -> None:
+    """The heel stays before the edge, so the sole comes down onto the edge itself."""
+    edges = nosings(StaircaseParams(steps=1, x=0.0).treads())
+    corners, force = swing(0.23, 0.05)
+    clearance = swing_clearance(corners, force, WEIGHT, edges)
+    assert clearance == pytest.approx(0.03, abs=1e-3)
+
+
+def test_passing_through_the_step_is_negative_and_passing_none_is_none() -> None:
+    """2 cm below the nosing is -2 cm."""
+    edges = nosings(StaircaseParams(steps=1, x=0.0).treads())
+    corners, force = swing(0.18, 0.2)
+    assert swing_clearance(corners, force, WEIGHT, edges) == pytest.approx(-0.02)
+    assert swing_clearance(corners, force, WEIGHT, []) is None
+    standing = np.stack([sole(-1.0)] * 3)
+    assert swing_clearance(standing, np.full(3, WEIGHT), WEIGHT, edges) is None

@@ -1,0 +1,125 @@
+"""Signals: recorded, written, and read back as they were."""
+
+import json
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+from pydrake.common.value import Value
+from pydrake.systems.analysis import Simulator
+from pydrake.systems.framework import DiagramBuilder
+from pydrake.systems.primitives import (
+    ConstantValueSource,
+    ConstantVectorSource,
+    Sine,
+)
+
+from diagrams.scenario import Scenario, save_scenario
+from diagrams.signals import RunError, SignalRecorder, load_run
+from models.scene import SceneParams
+from models.staircase import StaircaseParams
+from systems.values import TaskStatus
+
+
+def recorded() -> tuple[SignalRecorder, Simulator]:
+    """A sine and a status, recorded for a second."""
+    builder = DiagramBuilder()
+    sine = builder.AddNamedSystem(
+        "sine", Sine(np.array([1.0, 2.0]), np.array([6.0, 3.0]), np.zeros(2))
+    )
+    source = builder.AddNamedSystem(
+        "executive", ConstantValueSource(Value[object](TaskStatus(activity="move")))
+    )
+    recorder = SignalRecorder(builder)
+    port = sine.get_output_port(0)
+    recorder.add_vector("sine.y", port, ("knee", "hip"), ("rad", "Nm"), 0.005)
+    recorder.add_value("executive.status", source.get_output_port(), 0.1)
+    simulator = Simulator(builder.Build())
+    simulator.AdvanceTo(1.0)
+    return recorder, simulator
+
+
+def write_run(folder):
+    """A run folder of it."""
+    recorder, simulator = recorded()
+    folder.mkdir()
+    recorder.write(simulator.get_context(), folder / "signals")
+    scenario = Scenario(name="s", scene=SceneParams(staircase=StaircaseParams()))
+    save_scenario(scenario, folder / "scenario.yaml")
+    (folder / "summary.json").write_text(json.dumps({"outcome": "completed"}))
+    return scenario
+
+
+def test_run_comes_back_as_it_was(tmp_path) -> None:
+    """Every sample to the last bit, with names and units."""
+    scenario = write_run(tmp_path / "run")
+    run = load_run(str(tmp_path / "run"))
+    frame = run.signals["sine.y"]
+    assert list(frame.columns) == ["time", "knee", "hip"]
+    assert frame.attrs["units"] == {"time": "s", "knee": "rad", "hip": "Nm"}
+    assert len(frame) == 201
+    np.testing.assert_allclose(frame["hip"], 2.0 * np.sin(3.0 * frame["time"]))
+    np.testing.assert_allclose(np.diff(frame["time"]), 0.005)
+    assert run.values("executive.status") == [
+        (0.0, {"state": "running", "activity": "move", "reason": ""})
+    ]
+    assert run.value_names == ("executive.status",)
+    assert list(run.signals) == ["sine.y"]
+    assert run.summary == {"outcome": "completed"}
+    assert run.scenario == scenario
+
+
+def test_units_lie_in_the_columns_metadata(tmp_path) -> None:
+    """For whoever reads the file without footfall."""
+    write_run(tmp_path / "run")
+    schema = pq.read_schema(tmp_path / "run" / "signals" / "sine.y.parquet")
+    assert [item.name for item in schema] == ["time", "knee", "hip"]
+    assert [item.metadata[b"unit"] for item in schema] == [b"s", b"rad", b"Nm"]
+
+
+def test_signal_that_was_not_logged_is_named(tmp_path) -> None:
+    """With those that were."""
+    write_run(tmp_path / "run")
+    run = load_run(tmp_path / "run")
+    with pytest.raises(KeyError, match=r"no signal 'nope'.*it has: sine\.y"):
+        run.signals["nope"]
+    with pytest.raises(KeyError, match=r"no values 'nope'.*executive\.status"):
+        run.values("nope")
+    assert "nope" not in run.signals
+
+
+@pytest.mark.parametrize("missing", ["summary.json", "scenario.yaml"])
+def test_what_is_no_run_is_refused(tmp_path, missing) -> None:
+    """The error names the folder and what it lacks."""
+    write_run(tmp_path / "run")
+    (tmp_path / "run" / missing).unlink()
+    with pytest.raises(RunError, match=f"run: not a run folder, it has no {missing}"):
+        load_run(tmp_path / "run")
+
+
+def test_missing_folder_is_refused(tmp_path) -> None:
+    """By its name."""
+    with pytest.raises(RunError, match="nowhere: no such folder"):
+        load_run(tmp_path / "nowhere")
+
+
+@pytest.mark.parametrize(
+    ("name", "columns", "units", "message"),
+    [
+        ("y", ("a", "b"), "m", "named SYSTEM.PORT, got 'y'"),
+        ("../x.y", ("a", "b"), "m", "named SYSTEM.PORT"),
+        ("s.y", ("a",), "m", "2 elements, got 1 columns and 1 units"),
+        ("s.y", ("a", "b"), ("m",), "2 elements, got 2 columns and 1 units"),
+        ("s.y", ("a", "a"), "m", "columns must be unique"),
+        ("s.y", ("a", "time"), "m", "columns must be unique"),
+        ("taken.y", ("a", "b"), "m", "taken.y: logged twice"),
+    ],
+)
+def test_ill_declared_signals_are_refused(name, columns, units, message) -> None:
+    """Where they are declared, not when the run is written."""
+    builder = DiagramBuilder()
+    source = builder.AddNamedSystem("source", ConstantVectorSource(np.zeros(2)))
+    recorder = SignalRecorder(builder)
+    recorder.add_vector("taken.y", source.get_output_port(), ("a", "b"), "m", 0.1)
+    with pytest.raises(ValueError, match=message):
+        recorder.add_vector(name, source.get_output_port(), columns, units, 0.1)
