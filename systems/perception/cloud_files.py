@@ -1,8 +1,10 @@
 """Reading clouds from files: .pcd, .ply, .xyz, .txt and .npz."""
 
 import contextlib
+import io
 import os
 import sys
+import tempfile
 import warnings
 from collections.abc import Iterator
 from pathlib import Path
@@ -75,17 +77,20 @@ def read_cloud(path: Path) -> Vector:
 
 
 def _read_open3d(path: Path) -> Vector:
-    with _silenced():
-        try:
-            cloud = open3d.io.read_point_cloud(path, remove_nan_points=False)
-            points = np.array(cloud.points, dtype=np.float64)
-        except Exception as error:
-            raise CloudFileError(path, f"is no cloud ({error})") from error
     declared = _declared_points(path)
     if declared is None:
         raise CloudFileError(path, f"is no {path.suffix.lower()} file")
-    if len(points) != declared:
-        raise CloudFileError(path, f"is cut short: {len(points)} of {declared} points")
+    with _captured() as printed:
+        cloud = open3d.io.read_point_cloud(path, remove_nan_points=False)
+        points = np.array(cloud.points, dtype=np.float64)
+    if declared == 0:
+        return points
+    # A broken file is only printed about; of a cut .ply even made-up points come.
+    said = printed.getvalue()
+    if len(points) != declared or "failed" in said or "rror" in said:
+        raise CloudFileError(
+            path, f"is cut short or damaged: its header promises {declared} points"
+        )
     return points
 
 
@@ -126,7 +131,8 @@ def _read_text(path: Path) -> Vector:
 
 def _read_npz(path: Path) -> Vector:
     try:
-        with np.load(path, allow_pickle=False) as archive:
+        # Opened here, for np.load does not close what it cannot read.
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
             names = list(archive.files)
             name = names[0] if len(names) == 1 else "points"
             if name not in names:
@@ -148,18 +154,24 @@ def _read_npz(path: Path) -> Vector:
 
 
 @contextlib.contextmanager
-def _silenced() -> Iterator[None]:
-    """Drops what native code prints while it runs: it goes past sys.stdout."""
+def _captured() -> Iterator[io.StringIO]:
+    """Catches what is printed: Open3D through Python, what it uses straight to 1, 2."""
+    printed = io.StringIO()
     sys.stdout.flush()
     sys.stderr.flush()
     saved = os.dup(1), os.dup(2)
-    sink = os.open(os.devnull, os.O_WRONLY)
-    try:
-        os.dup2(sink, 1)
-        os.dup2(sink, 2)
-        yield
-    finally:
-        for target, copy in zip((1, 2), saved, strict=True):
-            os.dup2(copy, target)
-            os.close(copy)
-        os.close(sink)
+    with tempfile.TemporaryFile() as sink:
+        os.dup2(sink.fileno(), 1)
+        os.dup2(sink.fileno(), 2)
+        try:
+            with (
+                contextlib.redirect_stdout(printed),
+                contextlib.redirect_stderr(printed),
+            ):
+                yield printed
+        finally:
+            for target, copy in zip((1, 2), saved, strict=True):
+                os.dup2(copy, target)
+                os.close(copy)
+            sink.seek(0)
+            printed.write(sink.read().decode(errors="replace"))

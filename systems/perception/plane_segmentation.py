@@ -27,6 +27,7 @@ from systems.perception.segmenter_params import PlaneSegmenterParams
 from systems.perception.segments import patch_segment, tread_segment
 from systems.perception.stair_chain import (
     floor_below,
+    join_parts,
     largest_size_cluster,
     longest_chain,
     tread_candidates,
@@ -292,6 +293,8 @@ def segment_planes(
     planes = fit_planes(voxels, clusters, params)
     lap("planes")
     patches = bound_planes(planes, voxels, cloud, params)
+    if params.staircase_from == "chain":
+        patches = join_parts(patches, params.stairs)
     lap("boundaries")
     chosen, yaw, treads, floor = find_treads(patches, cloud, params, eye)
     segments = {i: patch_segment(patch, R_GW) for i, patch in enumerate(patches)}

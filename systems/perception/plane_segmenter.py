@@ -1,6 +1,6 @@
 """The plane segmentation as a system."""
 
-from pydrake.common.value import Value as AbstractValue
+from pydrake.common.value import AbstractValue
 from pydrake.perception import PointCloud
 from pydrake.systems.framework import Context, LeafSystem
 

@@ -8,10 +8,18 @@ All of it in a frame G whose z points up.
 from dataclasses import dataclass
 
 import numpy as np
+import shapely  # type: ignore[import-untyped]
 from scipy.cluster.hierarchy import fcluster, linkage
 
-from systems.perception.planes import Patch
+from systems.perception.planes import FittedPlane, Patch, bound_patch, fit_plane
 from systems.ports import Vector
+
+PART_OFFSET = 0.015
+"""Most that parts of one tread lie off one plane, m: three times the noise."""
+PART_FILL = 0.45
+"""Least part of a joined tread's rectangle that was seen."""
+LEVEL_SLOPE = 0.09
+"""Steepest tread that is joined from parts, rad."""
 
 
 @dataclass(kw_only=True)
@@ -36,6 +44,8 @@ class StairLimits:
     depth_tolerance: float = 0.06
     """How much the depth of a last tread whose end was not seen may depart from that
     of the others, as a part of it: else the end is that of the view."""
+    max_gap: float = 0.30
+    """Largest gap between parts of one tread, m: the shadow of a leg."""
     size_tolerance: float = 0.1
     """Distance below which two sizes (dx, dy) are of one cluster, m; the paper names
     the clustering, not its distance."""
@@ -63,6 +73,68 @@ def largest_size_cluster(extents: Vector, tolerance: float) -> list[int]:
         ),
     )
     return [int(i) for i in np.flatnonzero(labels == best)]
+
+
+def join_parts(patches: tuple[Patch, ...], limits: StairLimits) -> tuple[Patch, ...]:
+    """Joins the parts of a tread that something stands before, as the robot's knees.
+
+    Parts are level, of one plane, no farther apart than `max_gap`, and together no
+    larger than a tread.
+
+    Args:
+        patches: all patches.
+        limits: what passes for a staircase.
+
+    Returns:
+        The patches, those joined in the place of their first part.
+    """
+    joined = list(patches)
+    tries = [
+        (i, k)
+        for k in range(len(patches))
+        for i in range(k)
+        if _may_be_parts(patches[i], patches[k], limits)
+    ]
+    place = list(range(len(patches)))
+    for i, k in tries:
+        i, k = place[i], place[k]
+        if i == k:
+            continue
+        whole = _join(joined[i], joined[k], limits)
+        if whole is not None:
+            joined[min(i, k)] = whole
+            place = [min(i, k) if at in (i, k) else at for at in place]
+    return tuple(joined[i] for i in sorted(set(place)))
+
+
+def _may_be_parts(a: Patch, b: Patch, limits: StairLimits) -> bool:
+    between = b.center - a.center
+    return bool(
+        abs(between[2]) <= PART_OFFSET + LEVEL_SLOPE * np.hypot(*between[:2])
+        and np.hypot(*between[:2]) <= limits.max_width
+        and max(a.extent[0], b.extent[0]) <= limits.max_depth
+        and max(a.extent[1], b.extent[1]) <= limits.max_width
+        and min(a.plane.normal[2], b.plane.normal[2]) >= np.cos(LEVEL_SLOPE)
+        and shapely.distance(
+            shapely.Polygon(a.outline[:, :2]), shapely.Polygon(b.outline[:, :2])
+        )
+        <= limits.max_gap
+    )
+
+
+def _join(a: Patch, b: Patch, limits: StairLimits) -> Patch | None:
+    """The patch of both parts' points; None where that is no tread."""
+    points = np.concatenate([a.points, b.points])
+    point, normal = fit_plane(points)
+    if np.percentile(np.abs((points - point) @ normal), 95.0) > PART_OFFSET:
+        return None
+    inliers = np.concatenate([a.plane.inliers, b.plane.inliers])
+    whole = bound_patch(FittedPlane(point, normal, inliers), points, a.area + b.area)
+    if whole is None:
+        return None
+    fits = whole.extent[0] <= limits.max_depth and whole.extent[1] <= limits.max_width
+    filled = whole.area >= PART_FILL * whole.extent[0] * whole.extent[1]
+    return whole if fits and filled else None
 
 
 def tread_candidates(

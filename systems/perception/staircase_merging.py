@@ -29,6 +29,9 @@ class StaircaseMapParams:
     """Least overlap of two rectangles of one tread, as part of the smaller one."""
     max_turn: float = 0.2
     """Most that the directions of two views of one staircase differ, rad."""
+    depth_tolerance: float = 0.3
+    """How much deeper than the deepest known tread a new one may be, as a part of it:
+    what is deeper is a landing. One that is seen in part may well be less deep."""
     period: float = 0.025
     """How often the map looks for a new sweep, s: the time of one scan line."""
 
@@ -38,7 +41,13 @@ class StaircaseMapParams:
         Raises:
             ValueError: a field has a value that makes no sense.
         """
-        for name in ("height_tolerance", "edge_tolerance", "max_turn", "period"):
+        for name in (
+            "height_tolerance",
+            "edge_tolerance",
+            "max_turn",
+            "depth_tolerance",
+            "period",
+        ):
             value = getattr(self, name)
             if not (np.isfinite(value) and value > 0.0):
                 raise ValueError(f"{name}: must be positive, got {value}")
@@ -197,7 +206,10 @@ def _confirm(known: PlaneSegment, seen: PlaneSegment) -> PlaneSegment:
 def _continues(
     treads: list[PlaneSegment], seen: PlaneSegment, params: StaircaseMapParams
 ) -> bool:
-    """Whether `seen` lies on the flight: the higher, the farther, and in line."""
+    """Whether `seen` is on the flight: the higher, the farther, in line, no landing."""
+    deepest = max(float(tread.size[0]) for tread in treads)
+    if seen.size[0] > (1.0 + params.depth_tolerance) * deepest:
+        return False
     for tread in treads:
         p_R: Vector = tread.X_WR.inverse().multiply(seen.X_WR.translation())
         climbs = p_R[2] > params.height_tolerance and p_R[0] > 0.0

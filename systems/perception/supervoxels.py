@@ -163,11 +163,9 @@ def _expand(
             seed_resolution=seed_resolution,
             influence=influence,
         )
-        # Sorted so that of a voxel's offers the nearest, then the first, is written.
-        order = np.lexsort((label, distance, voxel))
-        voxel, label = voxel[order], label[order]
-        best = np.flatnonzero(np.diff(voxel, prepend=-1))
-        labels[voxel[best]] = label[best]
+        # Of what is written to one place the last stays: the nearest goes last.
+        order = np.argsort(-distance, kind="stable")
+        labels[voxel[order]] = label[order]
 
 
 def merge_supervoxels(

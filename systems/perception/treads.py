@@ -45,8 +45,8 @@ class Tread:
     drops: bool
     """Whether something lower was seen before its front edge."""
     ends: bool
-    """Whether a face was seen at its back edge, or, of the last tread, something
-    farther away behind it."""
+    """Whether a face was seen at its back edge or, of the last tread, what lies behind
+    it."""
 
 
 def stair_rotation(yaw: float) -> Vector:
@@ -117,20 +117,33 @@ def refine_treads(
     rotation = stair_rotation(yaw)
     local = near @ rotation
     treads = [_bound(patch, local, rotation) for patch in patches]
-    treads[-1] = replace(treads[-1], ends=_is_seen_past(treads[-1], cloud, rotation))
+    last = treads[-1]
+    if not last.ends and viewpoint is not None:
+        seen = _is_seen_past(last, cloud @ rotation, viewpoint @ rotation)
+        treads[-1] = replace(last, ends=seen)
     return yaw, treads
 
 
-def _is_seen_past(tread: Tread, cloud: Vector, rotation: Vector) -> bool:
-    """Whether the view goes on behind the tread, so that its end is its own."""
-    if tread.ends:
-        return True
-    local = cloud @ rotation
-    past = (local[:, 0] > tread.high[0] + BIN) & (local[:, 1] > tread.low[1])
-    past &= (local[:, 1] < tread.high[1]) & (
-        (local - tread.point) @ tread.normal < -SLAB
+def _is_seen_past(tread: Tread, cloud: Vector, eye: Vector) -> bool:
+    """Whether the view goes on over a tread's back edge, so that it is its own.
+
+    Args:
+        tread: the tread.
+        cloud: the cloud in S, (n, 3), m.
+        eye: viewpoint in S, (3,), m.
+    """
+    off = (cloud - tread.point) @ tread.normal
+    height = float((eye - tread.point) @ tread.normal)
+    below = cloud[off < -SLAB]
+    # Where the ray to the point pierces the tread's plane; under an open tread one
+    # sees too, but through the plane before it.
+    part = height / (height - off[off < -SLAB])
+    through = eye[:2] + part[:, None] * (below[:, :2] - eye[:2])
+    past = (through[:, 0] > tread.high[0] + 0.01) & (
+        through[:, 0] < tread.high[0] + 1.0
     )
-    return bool(np.count_nonzero(past) >= MIN_FACE_POINTS)
+    past &= (through[:, 1] > tread.low[1]) & (through[:, 1] < tread.high[1])
+    return height > 0.0 and bool(np.count_nonzero(past) >= MIN_FACE_POINTS)
 
 
 def _near(patches: list[Patch], cloud: Vector) -> Vector:
@@ -177,7 +190,10 @@ def _bound(patch: Patch, local: Vector, rotation: Vector) -> Tread:
 
 
 def _hanging_together(slab: Vector, core: Vector) -> Vector:
-    """The points of a slab that hang together with the core's, in plan view."""
+    """The points of a slab that hang together with the core's, in plan view.
+
+    The core may be in several parts, where something hides the rest of a tread.
+    """
     both = np.concatenate([slab, core])[:, :2]
     cells = np.floor(both / CELL).astype(np.int64)
     cells -= cells.min(axis=0) - 1
@@ -186,9 +202,8 @@ def _hanging_together(slab: Vector, core: Vector) -> Vector:
     occupied[cells[:, 0], cells[:, 1]] = True
     label = ndimage.label(occupied, np.ones((3, 3)))[0]
     of_point = label[cells[:, 0], cells[:, 1]]
-    wanted = np.bincount(of_point[len(slab) :])
-    main = int(np.argmax(wanted))
-    return np.asarray(slab[of_point[: len(slab)] == main])
+    wanted = np.bincount(of_point[len(slab) :], minlength=int(label.max()) + 1)
+    return np.asarray(slab[wanted[of_point[: len(slab)]] >= MIN_FACE_POINTS])
 
 
 def _strip_end(across: Vector, along: Vector) -> float:

@@ -1,0 +1,112 @@
+"""A cloud in a file to planes as JSON and as a picture."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from matplotlib.image import imread
+
+from diagrams.segmenting import segment_file
+from systems.perception.cloud_files import CloudFileError
+from systems.perception.segmenter_params import PlaneSegmenterParams
+from systems.ports import Vector
+from systems.values import to_json
+
+GRAVITY = np.array([0.0, 0.0, -9.81])
+
+
+def steps() -> Vector:
+    """A dense cloud of three steps, risers and floor, (n, 3), m."""
+    rng = np.random.default_rng(0)
+    parts = [rng.uniform([-1.0, -1.0, 0.0], [0.0, 1.0, 0.0], (8000, 3))]
+    for i in range(3):
+        x, z = 0.3 * i, 0.15 * (i + 1)
+        parts.append(rng.uniform([x, -0.4, z], [x + 0.3, 0.4, z], (3000, 3)))
+        parts.append(rng.uniform([x, -0.4, z - 0.15], [x, 0.4, z], (1500, 3)))
+    cloud: Vector = np.concatenate(parts)
+    return cloud + rng.normal(0.0, 0.002, cloud.shape)
+
+
+def test_json_and_picture_of_a_staircase(tmp_path: Path) -> None:
+    """Both files are whole and say what the function returns; nothing else is left."""
+    np.savez(tmp_path / "steps.npz", points=steps())
+    out = tmp_path / "new" / "folder"
+    result = segment_file(tmp_path / "steps.npz", GRAVITY, out)
+    assert sorted(path.name for path in out.iterdir()) == ["planes.json", "planes.png"]
+    assert len(result.segmentation.staircase.treads) == 3
+    document: Any = json.loads(result.planes_json.read_text(encoding="utf-8"))
+    assert document["cloud"] == "steps.npz"
+    assert document["points"] == result.points == 21500
+    assert document["planes"] == to_json(result.segmentation.planes)
+    assert len(document["staircase"]["treads"]) == 3
+    sizes = [tread["size"] for tread in document["staircase"]["treads"]]
+    np.testing.assert_allclose(sizes, [[0.3, 0.8]] * 3, atol=0.015)
+    stages = ["read", "filters", "supervoxels", "planes", "boundaries", "staircase"]
+    assert list(document["times_ms"]) == stages
+    picture = imread(result.planes_png)
+    assert picture.shape[0] > 400
+    assert picture.shape[1] > 800
+    # Treads are drawn: some pixels are of their colour.
+    orange = np.abs(picture[:, :, :3] - [0.851, 0.282, 0.059]).max(axis=2) < 0.02
+    assert np.count_nonzero(orange) > 500
+
+
+def test_cloud_without_planes(tmp_path: Path) -> None:
+    """A cloud of noise is no error: no planes, and a picture all the same."""
+    cloud = np.random.default_rng(1).uniform(-1.0, 1.0, (500, 3))
+    np.savetxt(tmp_path / "noise.xyz", cloud)
+    result = segment_file(tmp_path / "noise.xyz", GRAVITY, tmp_path)
+    assert result.segmentation.planes == ()
+    assert json.loads(result.planes_json.read_text(encoding="utf-8"))["planes"] == []
+    assert result.planes_png.stat().st_size > 1000
+
+
+@pytest.mark.parametrize("down", [[0.0, -1.0, 0.0], [1.0, 1.0, 0.2]])
+def test_gravity_may_point_anywhere(down: list[float], tmp_path: Path) -> None:
+    """A cloud in a camera's frame, with its gravity: the same three treads."""
+    g = np.array(down) / np.linalg.norm(down)
+    across = np.cross(g, [0.3, 0.2, 1.0])
+    across /= np.linalg.norm(across)
+    axes = np.column_stack([np.cross(g, across), across, -g])
+    np.savez(tmp_path / "steps.npz", points=steps() @ axes.T)
+    result = segment_file(tmp_path / "steps.npz", 9.81 * g, tmp_path)
+    assert len(result.segmentation.staircase.treads) == 3
+
+
+def test_bad_input_leaves_nothing_behind(tmp_path: Path) -> None:
+    """No result, not half a one, where the input is wrong."""
+    (tmp_path / "bad.xyz").write_text("no cloud\n")
+    np.savez(tmp_path / "good.npz", points=steps())
+    out = tmp_path / "out"
+    with pytest.raises(CloudFileError, match=r"bad\.xyz"):
+        segment_file(tmp_path / "bad.xyz", GRAVITY, out)
+    with pytest.raises(ValueError, match="gravity"):
+        segment_file(tmp_path / "good.npz", np.zeros(3), out)
+    params = PlaneSegmenterParams(voxel_size=0.0)
+    with pytest.raises(ValueError, match="voxel_size"):
+        segment_file(tmp_path / "good.npz", GRAVITY, out, params)
+    assert not out.exists()
+
+
+def test_a_failed_write_keeps_the_former_result(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where writing breaks off, what was there stays and no scrap is left."""
+    np.savez(tmp_path / "steps.npz", points=steps())
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / "planes.json").write_text("former")
+
+    def break_off(path: Path, text: str, encoding: str) -> None:
+        with path.open("w", encoding=encoding) as file:
+            file.write(text[:100])
+        raise OSError("disk full")
+
+    monkeypatch.setattr(Path, "write_text", break_off)
+    with pytest.raises(OSError, match="disk full"):
+        segment_file(tmp_path / "steps.npz", GRAVITY, out)
+    assert (out / "planes.json").read_text(encoding="utf-8") == "former"
+    names = sorted(path.name for path in out.iterdir())
+    assert names == ["planes.json", "planes.png"]
