@@ -21,9 +21,17 @@ from models.validation import (
     require_one_of,
     require_positive,
 )
+from systems.balance.landing_adaptor import LandingParams
+from systems.balance.stabilizer import StabilizerParams
+from systems.balance.zmp_preview import ZmpPreviewParams
 from systems.perception.scan_assembler import ScanAssemblerParams
 from systems.perception.segmenter_params import PlaneSegmenterParams
+from systems.perception.staircase_merging import StaircaseMapParams
+from systems.planning.executive import ExecutiveParams
+from systems.planning.footstep_params import FootstepPlannerParams
+from systems.planning.motion_params import MotionPlannerParams
 from systems.sensing.tilting_lidar import TiltingLidarParams
+from systems.tracking.whole_body_ik import IkParams
 
 ROBOTS: dict[str, RobotModel] = {"jvrc1": JVRC1}
 """The robots that a scenario may name."""
@@ -130,13 +138,33 @@ class ControllerParams:
     """From scan lines to a cloud."""
     segmenter: PlaneSegmenterParams = field(default_factory=PlaneSegmenterParams)
     """From the cloud to planes and the staircase."""
+    staircase_map: StaircaseMapParams = field(default_factory=StaircaseMapParams)
+    """What is remembered from scan to scan."""
+    footstep_planner: FootstepPlannerParams = field(
+        default_factory=FootstepPlannerParams
+    )
+    """Where the feet go; `task.steps_between_scans` takes precedence over its own."""
+    motion_planner: MotionPlannerParams = field(default_factory=MotionPlannerParams)
+    """When and how they go there."""
+    zmp_preview: ZmpPreviewParams = field(
+        default_factory=lambda: ZmpPreviewParams(com_height=0.85)
+    )
+    """The cart-table's preview control."""
+    landing: LandingParams = field(default_factory=LandingParams)
+    """When a foot counts as landed."""
+    stabilizer: StabilizerParams = field(default_factory=StabilizerParams)
+    """Balance feedback."""
+    ik: IkParams = field(default_factory=IkParams)
+    """Whole-body tracking."""
+    executive: ExecutiveParams = field(default_factory=ExecutiveParams)
+    """When to scan, plan and move."""
 
 
 @dataclass(kw_only=True)
 class SimulationParams:
     """How the world is simulated."""
 
-    time_step: float = 0.002
+    time_step: float = 0.0025
     """Step of the plant, s."""
     max_time: float = 120.0
     """When the run is given up, s of simulated time."""

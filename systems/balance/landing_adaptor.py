@@ -181,8 +181,8 @@ class LandingAdaptor(LeafSystem):
     - `foot_references` (output): like the input, adapted; of the last tick.
     - `contacts` (output): like the input, but a foot counts when it has landed.
 
-    The discrete state is, a foot, (offset (6), sag (6), held pose (6), landed, time since
-    lift-off), then the outputs of this tick (28), then the plan's start.
+    The discrete state is, a foot, (offset (6), sag (6), held pose (6), landed, time
+    since lift-off), then the outputs of this tick (28), then the plan's start.
     """
 
     def __init__(self, params: LandingParams, foot_poses: Vector) -> None:

@@ -1,6 +1,6 @@
 """Sharing a net wrench among the feet, each inside its contact wrench cone."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 
 import daqp
@@ -31,7 +31,7 @@ class DistributionParams:
     """Weight of the error in net moment about the vertical, 1/(Nm)^2."""
     tangential_cost: float = 1e-4
     """Cost of tangential force, 1/N^2."""
-    moment_cost: tuple[float, float, float] = (0.02, 0.01, 0.05)
+    moment_cost: list[float] = field(default_factory=lambda: [0.02, 0.01, 0.05])
     """Costs of a foot's moment about its centre, x, y, z, 1/(Nm)^2: keeps the centre of
     pressure off the edges where both feet can share."""
 
@@ -49,6 +49,10 @@ class DistributionParams:
                 raise ValueError(
                     f"{name}: must not be negative, got {getattr(self, name)}"
                 )
+        if len(self.moment_cost) != 3 or not min(self.moment_cost) >= 0.0:
+            raise ValueError(
+                f"moment_cost: must be three costs of 0 or more, got {self.moment_cost}"
+            )
 
 
 @lru_cache(maxsize=64)

@@ -78,8 +78,8 @@ class FootstepPlannerParams:
     max_slope: float = 0.175
     """Planes and soles that tilt more are refused, rad (10 deg)."""
 
-    def validate(self, sole: Sole) -> None:
-        """Checks the fields, and that the soles fit side by side.
+    def validate(self, sole: Sole | None = None) -> None:
+        """Checks the fields, and, where a sole is given, that two fit side by side.
 
         Raises:
             ValueError: naming the field, the reason and what it got.
@@ -126,6 +126,8 @@ class FootstepPlannerParams:
             raise ValueError(
                 f'lead_foot: must be "left" or "right", got {self.lead_foot!r}'
             )
+        if sole is None:
+            return
         narrowest = 2.0 * sole.half_width + self.sole_gap
         if not narrowest <= self.stance_width <= self.max_stance_width:
             raise ValueError(

@@ -1,0 +1,206 @@
+"""The robot in its scene: plant, joint servos, sensors and what pushes it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from pydrake.geometry import SceneGraph
+from pydrake.math import RigidTransform
+from pydrake.multibody.plant import (
+    AddMultibodyPlant,
+    MultibodyPlant,
+    MultibodyPlantConfig,
+)
+from pydrake.multibody.tree import ModelInstanceIndex
+from pydrake.systems.framework import DiagramBuilder, OutputPort
+from pydrake.systems.primitives import ZeroOrderHold
+
+from diagrams.scenario import Scenario
+from diagrams.wiring import add_system
+from models.robot import RobotModel
+from models.robot_loader import add_robot, body_meshes, is_sole
+from models.solids import add_solids, triangle_mesh
+from systems.disturbance.pusher import Push, Pusher
+from systems.perception.scan_assembler import ScanAssembler, box_around
+from systems.ports import Vector
+from systems.sensing.contact_monitor import ContactMonitor, watched_geometry
+from systems.sensing.foot_wrench_sensor import FootWrenchSensor
+from systems.sensing.kinematic_state import KinematicState
+from systems.sensing.ray_caster import BodyMesh
+from systems.sensing.tilting_lidar import TiltingLidar
+
+STAIRCASE_PREFIX = "staircase/"
+"""What the names of the staircase's solids begin with."""
+
+
+@dataclass(frozen=True)
+class Station:
+    """The plant and the ports around it.
+
+    Subsystems: `plant`, `scene_graph`, `torque_hold`, `kinematic_state`,
+    `foot_wrench_sensor`, `contact_monitor`, `pusher`.
+    """
+
+    plant: MultibodyPlant
+    scene_graph: SceneGraph
+    robot: RobotModel
+    instance: ModelInstanceIndex
+    model: MultibodyPlant
+    """The robot alone, for the controllers' kinematics and dynamics."""
+    torque: ZeroOrderHold
+    """Takes the feed-forward torque; holds it for a control period."""
+    joint_state: OutputPort
+    """Measured positions and velocities, base first."""
+    kinematics: KinematicState
+    wrench_sensor: FootWrenchSensor
+    contact_monitor: ContactMonitor
+
+
+def robot_alone(robot: RobotModel) -> MultibodyPlant:
+    """The robot without a scene, finalised, as the controllers know it."""
+    model = MultibodyPlant(0.0)
+    scene_graph = SceneGraph()
+    model.RegisterAsSourceForSceneGraph(scene_graph)
+    add_robot(model, scene_graph, robot)
+    model.Finalize()
+    return model
+
+
+def add_station(
+    builder: DiagramBuilder, scenario: Scenario, robot: RobotModel, period: float
+) -> Station:
+    """Adds robot, scene, servos, proprioception and pushes.
+
+    Args:
+        builder: of the diagram.
+        scenario: what stands where, and the simulation's settings.
+        robot: which robot.
+        period: of the controllers, s.
+
+    Returns:
+        What the rest of a diagram connects to.
+    """
+    config = MultibodyPlantConfig(
+        time_step=scenario.simulation.time_step,
+        contact_model="point",
+        discrete_contact_approximation="lagged",
+    )
+    plant, scene_graph = AddMultibodyPlant(config, builder)
+    plant.set_name("plant")
+    scene_graph.set_name("scene_graph")
+    instance = add_robot(plant, scene_graph, robot)
+    add_solids(plant, scenario.scene.solids())
+    plant.Finalize()
+
+    torque = add_system(
+        builder, "torque_hold", ZeroOrderHold(period, plant.num_actuators(instance))
+    )
+    builder.Connect(torque.get_output_port(), plant.get_actuation_input_port(instance))
+    joint_state = plant.get_state_output_port(instance)
+
+    model = robot_alone(robot)
+    kinematics = add_system(builder, "kinematic_state", KinematicState(model, robot))
+    builder.Connect(joint_state, kinematics.GetInputPort("state"))
+
+    wrench_sensor = add_system(
+        builder, "foot_wrench_sensor", FootWrenchSensor(plant, instance, robot)
+    )
+    contact_monitor = add_system(
+        builder,
+        "contact_monitor",
+        ContactMonitor(
+            watched_geometry(
+                plant,
+                scene_graph.model_inspector(),
+                instance,
+                STAIRCASE_PREFIX,
+                is_sole,
+            ),
+            scenario.simulation.time_step,
+        ),
+    )
+    contact_results = plant.get_contact_results_output_port()
+    for sensor in (wrench_sensor, contact_monitor):
+        builder.Connect(contact_results, sensor.GetInputPort("contact_results"))
+    builder.Connect(
+        plant.get_body_poses_output_port(), wrench_sensor.GetInputPort("body_poses")
+    )
+
+    pusher = add_system(
+        builder,
+        "pusher",
+        Pusher(
+            [
+                Push(
+                    plant.GetBodyByName(push.body, instance).index(),
+                    push.time,
+                    push.duration,
+                    np.array(push.force),
+                )
+                for push in scenario.task.pushes
+            ]
+        ),
+    )
+    builder.Connect(
+        pusher.GetOutputPort("spatial_forces"),
+        plant.get_applied_spatial_force_input_port(),
+    )
+    return Station(
+        plant,
+        scene_graph,
+        robot,
+        instance,
+        model,
+        torque,
+        joint_state,
+        kinematics,
+        wrench_sensor,
+        contact_monitor,
+    )
+
+
+def add_lidar(
+    builder: DiagramBuilder, scenario: Scenario, station: Station
+) -> tuple[TiltingLidar, ScanAssembler]:
+    """Adds the scanner on the robot's head and what makes a cloud of its lines."""
+    plant, robot = station.plant, station.robot
+    head = plant.GetBodyByName(robot.head_body, station.instance).index()
+    p_HM: Vector = np.array(robot.lidar_position)
+    X_HM = RigidTransform(p_HM)
+    meshes = [
+        BodyMesh(
+            int(plant.GetBodyByName(mesh.body, station.instance).index()),
+            mesh.vertices,
+            mesh.triangles.astype(np.int64),
+        )
+        for mesh in body_meshes(robot)
+        if mesh.body != robot.head_body
+    ]
+    params = scenario.lidar()
+    lidar = add_system(
+        builder,
+        "tilting_lidar",
+        TiltingLidar(
+            params,
+            mount_body=int(head),
+            X_BM=X_HM,
+            scene=triangle_mesh(scenario.scene.solids()),
+            body_meshes=meshes,
+        ),
+    )
+    assembler = add_system(
+        builder,
+        "scan_assembler",
+        ScanAssembler(
+            scenario.parameters.scan_assembler,
+            beam_angles=params.angles(),
+            mount_body=int(head),
+            X_BM=X_HM,
+            own_boxes=[box_around(mesh.body_index, mesh.vertices) for mesh in meshes],
+        ),
+    )
+    body_poses = plant.get_body_poses_output_port()
+    builder.Connect(body_poses, lidar.GetInputPort("body_poses"))
+    builder.Connect(body_poses, assembler.GetInputPort("body_poses"))
+    for port in ("scan", "sweep"):
+        builder.Connect(lidar.GetOutputPort(port), assembler.GetInputPort(port))
+    return lidar, assembler

@@ -1,0 +1,190 @@
+"""What every task shares: from a motion plan to torques, in balance."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from pydrake.math import RotationMatrix
+from pydrake.systems.framework import DiagramBuilder, OutputPort
+
+from diagrams.scenario import Scenario
+from diagrams.station import Station
+from diagrams.wiring import add_system
+from models.robot import RobotModel
+from systems.balance.com_reference import ComReference
+from systems.balance.landing_adaptor import LandingAdaptor
+from systems.balance.stabilizer import Stabilizer
+from systems.balance.zmp_preview_controller import ZmpPreviewController
+from systems.planning.motion_player import MotionPlayer
+from systems.ports import Vector
+from systems.tracking.ik_tracker import IkTracker
+from systems.tracking.whole_body_feedforward import WholeBodyFeedforward
+from systems.tracking.whole_body_ik import IkTarget, WholeBodyIk, solve_posture
+
+LARGEST_ACCELERATION = 100.0
+"""Joint accelerations of the reference are clamped to this, rad/s^2."""
+
+
+@dataclass(frozen=True)
+class Stand:
+    """Where the robot stands at the start."""
+
+    foot_poses: Vector
+    """Sole frames X_WF, (2, 6), left first."""
+    com: Vector
+    """p_WCom, (3,), m."""
+    positions: Vector
+    """q of the robot, (nq,)."""
+
+
+@dataclass(frozen=True)
+class Walking:
+    """The walking controllers, wired to each other.
+
+    Subsystems: `motion_player`, `zmp_preview`, `com_reference`, `landing_adaptor`,
+    `ik_tracker`, `feedforward`, `stabilizer`.
+    """
+
+    player: MotionPlayer
+    preview: ZmpPreviewController
+    com_reference: OutputPort
+    """p_WCom, v_WCom, a_WCom, (9,)."""
+    landing: LandingAdaptor
+    tracker: IkTracker
+    feedforward: WholeBodyFeedforward
+    stabilizer: Stabilizer
+
+
+def initial_stand(
+    scenario: Scenario, robot: RobotModel, ik: WholeBodyIk, station: Station
+) -> Stand:
+    """Both feet side by side under the start pose, knees bent."""
+    start = scenario.robot
+    turn: Vector = RotationMatrix.MakeZRotation(start.yaw).matrix()
+    origin = np.array([start.x, start.y, 0.0])
+    half = 0.5 * scenario.parameters.footstep_planner.stance_width
+    feet: Vector = np.zeros((2, 6))
+    for foot, side in zip(feet, (half, -half), strict=True):
+        foot[:3] = origin + turn @ np.array([0.0, side, 0.0])
+        foot[5] = start.yaw
+    planner = scenario.parameters.motion_planner
+    com: Vector = origin + turn @ np.array([planner.zmp_forward, 0.0, 0.0])
+    com[2] = planner.com_height
+    nothing: Vector = np.zeros(3)
+    waist: Vector = np.array([0.0, 0.0, start.yaw])
+    target = IkTarget(
+        com=com,
+        com_velocity=nothing,
+        foot_poses=feet,
+        foot_rates=np.zeros((2, 6)),
+        stance=np.ones(2),
+        waist=waist,
+        waist_rate=nothing,
+    )
+    return Stand(feet, com, solve_posture(ik, station.model, target))
+
+
+def add_walking(
+    builder: DiagramBuilder,
+    scenario: Scenario,
+    station: Station,
+    stand: Stand,
+    motion_plan: OutputPort,
+) -> Walking:
+    """Adds the controllers that carry out motion plans.
+
+    Args:
+        builder: of the diagram.
+        scenario: its parameters.
+        station: robot and scene.
+        stand: where the robot stands at the start.
+        motion_plan: the plan to carry out, abstract MotionPlan.
+
+    Returns:
+        The controllers, wired to the station.
+    """
+    params = scenario.parameters
+    model, robot = station.model, station.robot
+
+    preview = add_system(
+        builder,
+        "zmp_preview",
+        ZmpPreviewController(params.zmp_preview, (stand.com[0], stand.com[1])),
+    )
+    player = add_system(builder, "motion_player", MotionPlayer(preview.gains.horizon))
+    builder.Connect(motion_plan, player.GetInputPort("motion_plan"))
+    builder.Connect(
+        player.GetOutputPort("zmp_preview"), preview.GetInputPort("zmp_preview")
+    )
+    joined = add_system(builder, "com_reference", ComReference())
+    for port in ("com", "com_velocity", "com_acceleration"):
+        builder.Connect(preview.GetOutputPort(port), joined.GetInputPort(port))
+    builder.Connect(
+        player.GetOutputPort("com_height"), joined.GetInputPort("com_height")
+    )
+    com_reference = joined.GetOutputPort("com_reference")
+
+    landing = add_system(
+        builder,
+        "landing_adaptor",
+        LandingAdaptor(params.landing, stand.foot_poses.ravel()),
+    )
+    for port in ("foot_references", "contacts", "plan_start"):
+        builder.Connect(player.GetOutputPort(port), landing.GetInputPort(port))
+    builder.Connect(
+        station.wrench_sensor.GetOutputPort("foot_wrenches"),
+        landing.GetInputPort("foot_wrenches"),
+    )
+    builder.Connect(
+        station.kinematics.GetOutputPort("foot_poses"),
+        landing.GetInputPort("foot_poses"),
+    )
+
+    tracker = add_system(
+        builder, "ik_tracker", IkTracker(model, robot, params.ik, stand.positions)
+    )
+    builder.Connect(com_reference, tracker.GetInputPort("com_reference"))
+    for port in ("foot_references", "contacts"):
+        builder.Connect(landing.GetOutputPort(port), tracker.GetInputPort(port))
+    builder.Connect(player.GetOutputPort("waist"), tracker.GetInputPort("waist"))
+    builder.Connect(
+        tracker.GetOutputPort("joint_references"),
+        station.plant.get_desired_state_input_port(station.instance),
+    )
+
+    feedforward = add_system(
+        builder, "feedforward", WholeBodyFeedforward(model, robot, LARGEST_ACCELERATION)
+    )
+    for port in ("positions", "velocities", "accelerations"):
+        builder.Connect(tracker.GetOutputPort(port), feedforward.GetInputPort(port))
+
+    stabilizer = add_system(
+        builder,
+        "stabilizer",
+        Stabilizer(
+            params.stabilizer,
+            robot.sole,
+            model.CalcTotalMass(model.CreateDefaultContext()),
+        ),
+    )
+    for port in ("com", "com_velocity"):
+        builder.Connect(
+            station.kinematics.GetOutputPort(port), stabilizer.GetInputPort(port)
+        )
+    builder.Connect(com_reference, stabilizer.GetInputPort("com_reference"))
+    builder.Connect(player.GetOutputPort("zmp"), stabilizer.GetInputPort("zmp"))
+    for port in ("foot_references", "contacts"):
+        builder.Connect(landing.GetOutputPort(port), stabilizer.GetInputPort(port))
+    builder.Connect(
+        feedforward.GetOutputPort("momentum_rate"),
+        stabilizer.GetInputPort("momentum_rate"),
+    )
+    builder.Connect(
+        stabilizer.GetOutputPort("foot_wrenches"),
+        feedforward.GetInputPort("foot_wrenches"),
+    )
+    builder.Connect(
+        feedforward.GetOutputPort("torque"), station.torque.get_input_port()
+    )
+    return Walking(
+        player, preview, com_reference, landing, tracker, feedforward, stabilizer
+    )

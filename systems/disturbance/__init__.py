@@ -1,0 +1,1 @@
+"""Disturbances: what the world does to the robot."""

@@ -1,0 +1,207 @@
+"""Decides what is due: scan, plan, move, scan again."""
+
+import dataclasses
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from pydrake.common.value import AbstractValue
+from pydrake.systems.framework import BasicVector, Context, LeafSystem, State
+
+from systems.ports import eval_abstract, eval_vector, set_vector
+from systems.timing import timed
+from systems.values import FootstepPlan, MotionPlan, TaskStatus, Value
+
+
+@dataclass(kw_only=True)
+class ExecutiveParams:
+    """When it decides."""
+
+    period: float = 0.025
+    """Between decisions, s."""
+    settle_time: float = 0.3
+    """Standing still before a scan, s."""
+
+    def validate(self) -> None:
+        """Checks every field.
+
+        Raises:
+            ValueError: "field: reason, got x" for the first field that is wrong.
+        """
+        if not self.period > 0.0:
+            raise ValueError(f"period: must be positive, got {self.period}")
+        if not self.settle_time >= 0.0:
+            raise ValueError(
+                f"settle_time: must not be negative, got {self.settle_time}"
+            )
+
+
+@dataclass(frozen=True, eq=False)
+class Decision(Value):
+    """What the executive has decided, and what that rests on."""
+
+    motion_plan: MotionPlan
+    """What is being carried out."""
+    footstep_plan: FootstepPlan = dataclasses.field(default_factory=FootstepPlan)
+    """The footsteps of that."""
+    activity: Literal["settle", "scan", "move", "stand"] = "settle"
+    since: float = 0.0
+    """When this activity began, s."""
+    sweeps: int = 0
+    """Sweeps of which the result has been used."""
+    status: TaskStatus = dataclasses.field(default_factory=TaskStatus)
+
+
+def decide(
+    before: Decision,
+    time: float,
+    sweeps: int,
+    plan_footsteps: Callable[[], FootstepPlan],
+    plan_motion: Callable[[], MotionPlan],
+    params: ExecutiveParams,
+) -> Decision:
+    """One decision.
+
+    Args:
+        before: the last one.
+        time: now, s.
+        sweeps: how many sweeps perception has worked in.
+        plan_footsteps: plans on what is known now; called once a scan.
+        plan_motion: plans the motion along those footsteps; called once a plan.
+        params: see there.
+
+    Returns:
+        The decision; `before` itself where nothing changes.
+    """
+    if before.activity == "settle":
+        if time - before.since < params.settle_time:
+            return before
+        return _turn_to(before, "scan", time)
+    if before.activity == "scan":
+        if sweeps <= before.sweeps:
+            return before
+        footsteps = plan_footsteps()
+        known = dataclasses.replace(before, sweeps=sweeps, footstep_plan=footsteps)
+        if footsteps.status != "planned":
+            stopped = _turn_to(known, "stand", time)
+            status = TaskStatus(footsteps.status, "stand", footsteps.reason)
+            return dataclasses.replace(stopped, status=status)
+        plan = dataclasses.replace(plan_motion(), start_time=time)
+        return _turn_to(dataclasses.replace(known, motion_plan=plan), "move", time)
+    if before.activity == "move":
+        plan = before.motion_plan
+        if time < plan.start_time + plan.duration:
+            return before
+        return _turn_to(before, "settle", time)
+    return before
+
+
+def _turn_to(
+    before: Decision,
+    activity: Literal["settle", "scan", "move", "stand"],
+    time: float,
+) -> Decision:
+    status = TaskStatus("running", activity)
+    return dataclasses.replace(before, activity=activity, since=time, status=status)
+
+
+class Executive(LeafSystem):
+    """Scans, plans on what was seen, moves, and scans again until nothing is left.
+
+    .. pydrake_system::
+
+        name: Executive
+        input_ports:
+        - sweep
+        - footstep_plan
+        - motion_plan
+        output_ports:
+        - motion_plan
+        - footstep_plan
+        - scan
+        - status
+
+    - `sweep`: number of sweeps that perception has worked in, (1,).
+    - `footstep_plan` (input): footsteps on what is known now, abstract FootstepPlan;
+      evaluated once a sweep.
+    - `motion_plan` (input): motion along them, abstract MotionPlan; evaluated once a
+      plan.
+    - `motion_plan` (output): the motion that is being carried out.
+    - `footstep_plan` (output): its footsteps.
+    - `scan`: 1 while the scanner is to sweep, else 0, (1,).
+    - `status`: how the task is going, abstract TaskStatus.
+    """
+
+    def __init__(self, params: ExecutiveParams, stand: MotionPlan) -> None:
+        """Declares ports and the update.
+
+        Args:
+            params: see there.
+            stand: the plan of the default context, which stands.
+
+        Raises:
+            ValueError: a parameter is out of range.
+        """
+        super().__init__()
+        params.validate()
+        self._params = params
+        self._state = self.DeclareAbstractState(AbstractValue.Make(Decision(stand)))
+        self._sweep = self.DeclareVectorInputPort("sweep", 1)
+        self._footsteps = self.DeclareAbstractInputPort(
+            "footstep_plan", AbstractValue.Make(FootstepPlan())
+        )
+        self._motion = self.DeclareAbstractInputPort(
+            "motion_plan", AbstractValue.Make(stand)
+        )
+        ticket = {self.abstract_state_ticket(self._state)}
+        parts: tuple[tuple[str, object, Callable[[Decision], object]], ...] = (
+            ("motion_plan", stand, lambda decision: decision.motion_plan),
+            ("footstep_plan", FootstepPlan(), lambda decision: decision.footstep_plan),
+            ("status", TaskStatus(), lambda decision: decision.status),
+        )
+        for name, model, part in parts:
+            calc: Callable[..., None] = timed(self, self._calc(part))
+            self.DeclareAbstractOutputPort(
+                name,
+                lambda model=model: AbstractValue.Make(model),
+                calc,
+                prerequisites_of_calc=ticket,
+            )
+        self.DeclareVectorOutputPort(
+            "scan", 1, timed(self, self._calc_scan), prerequisites_of_calc=ticket
+        )
+        self.DeclarePeriodicUnrestrictedUpdateEvent(
+            params.period, 0.0, timed(self, self._update)
+        )
+
+    def _decision(self, context: Context) -> Decision:
+        state: Any = context.get_abstract_state(int(self._state))
+        decision = state.get_value()
+        assert isinstance(decision, Decision)
+        return decision
+
+    def _calc(
+        self, part: Callable[[Decision], object]
+    ) -> Callable[[Context, AbstractValue], None]:
+        def calc(context: Context, output: AbstractValue) -> None:
+            output.set_value(part(self._decision(context)))
+
+        return calc
+
+    def _calc_scan(self, context: Context, output: BasicVector) -> None:
+        scan = self._decision(context).activity == "scan"
+        set_vector(output, np.array([float(scan)]))
+
+    def _update(self, context: Context, state: State) -> None:
+        before = self._decision(context)
+        after = decide(
+            before,
+            context.get_time(),
+            round(float(eval_vector(self._sweep, context)[0])),
+            lambda: eval_abstract(self._footsteps, context, FootstepPlan),
+            lambda: eval_abstract(self._motion, context, MotionPlan),
+            self._params,
+        )
+        if after is not before:
+            state.get_mutable_abstract_state(int(self._state)).set_value(after)
