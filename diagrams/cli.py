@@ -61,17 +61,13 @@ SetOption = Annotated[
 @app.command("list")
 def list_command() -> None:
     """List the shipped scenarios, a line each."""
-    from rich.console import Console
-    from rich.table import Table
-
     from diagrams.scenario import list_scenarios
 
-    table = Table(box=None, show_header=False, padding=(0, 2, 0, 0))
-    table.add_column(no_wrap=True, style="bold")
     with _bad_input_in_one_line():
-        for name, description in list_scenarios():
-            table.add_row(name, description)
-    Console().print(table)
+        scenarios = list_scenarios()
+    width = max(len(name) for name, _ in scenarios)
+    for name, description in scenarios:
+        typer.echo(f"{name:<{width}}  {description}")
 
 
 @app.command()
@@ -81,8 +77,8 @@ def run(
         Path | None,
         typer.Option(
             metavar="DIR",
-            help="Folder to write, new or empty. "
-            f"[default: {RUNS_FOLDER}/SCENARIO-seedN]",
+            help="Folder to write, new or empty; by default "
+            f"{RUNS_FOLDER}/SCENARIO-seedN, numbered if that exists.",
             show_default=False,
         ),
     ] = None,
@@ -127,8 +123,8 @@ def segment(
         Path | None,
         typer.Option(
             metavar="DIR",
-            help="Folder to write planes.json and planes.png to. "
-            "[default: segmented/CLOUD]",
+            help="Folder to write planes.json and planes.png to; by default "
+            "segmented/CLOUD.",
             show_default=False,
         ),
     ] = None,
@@ -176,7 +172,7 @@ def diagram(
         Path | None,
         typer.Option(
             metavar="FILE",
-            help="SVG file to write. [default: SCENARIO.svg]",
+            help="SVG file to write; by default SCENARIO.svg.",
             show_default=False,
         ),
     ] = None,

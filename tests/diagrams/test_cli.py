@@ -1,0 +1,174 @@
+"""The command line: exit status, one-line errors, what it writes and prints."""
+
+import sys
+from types import ModuleType
+
+import pytest
+from typer.testing import CliRunner
+
+from diagrams.cli import app
+from diagrams.scenario import list_scenarios, save_scenario
+from diagrams.signals import load_run
+from systems.values import TaskStatus
+
+COMMANDS = ("list", "run", "segment", "plot", "replay", "diagram")
+
+
+def footfall(*arguments: object):
+    """Runs the command line; gives exit code, stdout, stderr."""
+    return CliRunner().invoke(app, [str(argument) for argument in arguments])
+
+
+@pytest.fixture
+def stand(monkeypatch, standing, tmp_path):
+    """Makes every scenario a robot that stands; gives the path of one."""
+    tasks = ModuleType("diagrams.tasks")
+    tasks.last = TaskStatus("finished", "stand", "stood")
+
+    def build_task(scenario, meshcat=None):
+        return standing.task(end=0.1, last=tasks.last)
+
+    tasks.build_task = build_task
+    monkeypatch.setitem(sys.modules, "diagrams.tasks", tasks)
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "standing.yaml"
+    save_scenario(standing.scenario(), path)
+    return path
+
+
+def test_help_names_every_command_and_the_exit_status() -> None:
+    """And needs nothing that takes long to import."""
+    result = footfall("--help")
+    assert result.exit_code == 0
+    assert all(command in result.stdout for command in COMMANDS)
+    assert "Exit status" in result.stdout
+    for command in COMMANDS:
+        assert footfall(command, "--help").exit_code == 0
+
+
+def test_list_has_a_line_a_scenario() -> None:
+    """Name first."""
+    lines = footfall("list").stdout.splitlines()
+    assert [line.split()[0] for line in lines] == [name for name, _ in list_scenarios()]
+    assert all(line.split(maxsplit=1)[1] for line in lines)
+
+
+def test_run_writes_the_run_folder(stand, tmp_path) -> None:
+    """All that the design lists, and the summary on stdout."""
+    result = footfall("run", stand, "--seed", 5, "--out", tmp_path / "out")
+    assert result.exit_code == 0, result.output
+    run = load_run(tmp_path / "out")
+    assert (run.summary["outcome"], run.summary["seed"]) == ("completed", 5)
+    assert run.scenario.simulation.seed == 5
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {
+        *("scenario.yaml", "summary.json", "signals", "replay.html", "figures"),
+        "diagram.svg",
+    }
+    assert result.stdout.startswith("completed: the robot stands")
+    assert "max_torque_fraction" in result.stdout
+    assert "climb_time_s" in result.stdout
+    assert "not measured" in result.stdout
+
+
+def test_a_scenario_written_by_a_run_runs_again(stand, tmp_path) -> None:
+    """Under its own name, with every field resolved."""
+    footfall("run", stand, "--set", "simulation.max_time=0.3", "--out", tmp_path / "a")
+    again = tmp_path / "a" / "scenario.yaml"
+    assert footfall("run", again, "--out", tmp_path / "b").exit_code in (0, 1)
+    assert load_run(tmp_path / "b").scenario == load_run(tmp_path / "a").scenario
+
+
+def test_default_folders_are_numbered(stand, tmp_path) -> None:
+    """No run is ever written over another."""
+    for _ in range(2):
+        assert footfall("run", stand).exit_code == 0
+    names = sorted(path.name for path in (tmp_path / "runs").iterdir())
+    assert names == ["standing-seed0", "standing-seed0-2"]
+
+
+def test_a_task_that_was_not_done_is_status_1(stand, tmp_path) -> None:
+    """Its reason is printed and in the summary."""
+    sys.modules["diagrams.tasks"].last = TaskStatus("infeasible", "plan", "too high")
+    result = footfall("run", stand, "--out", tmp_path / "out")
+    assert result.exit_code == 1
+    assert result.stdout.startswith("infeasible: too high")
+    assert load_run(tmp_path / "out").summary["reason"] == "too high"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "names"),
+    [
+        (("run", "stairs-exp9"), ("stairs-exp9", "no such scenario")),
+        (("run", "stairs-exp1", "--set", "scene.stares=1"), ("scene.stares",)),
+        (("run", "stairs-exp1", "--set", "simulation.max_time=soon"), ("max_time",)),
+        (("run", "nowhere/x.yaml"), ("nowhere/x.yaml", "no such file")),
+        (("diagram", "stairs-exp9"), ("stairs-exp9",)),
+        (("plot", "nowhere"), ("nowhere", "no such folder")),
+        (("replay", "."), ("not a run folder", "summary.json")),
+        (("segment", "nowhere.pcd"), ("nowhere.pcd",)),
+        (("segment", "x.pcd", "--gravity", "0,0"), ("--gravity", "'0,0'")),
+        (("segment", "x.pcd", "--gravity", "0,0,0"), ("--gravity",)),
+        (("run", "stairs-exp1", "--out", "."), ("--out .", "not an empty folder")),
+    ],
+)
+def test_bad_input_is_one_line_and_status_2(stand, arguments, names) -> None:
+    """It names the file and the field, without a traceback."""
+    result = footfall(*arguments)
+    assert result.exit_code == 2, result.output
+    assert result.stdout == ""
+    (line,) = result.stderr.splitlines()
+    assert line.startswith("footfall: ")
+    assert all(name in line for name in names)
+    assert "Traceback" not in result.output
+
+
+def test_an_empty_cloud_is_bad_input(tmp_path) -> None:
+    """Named by its file."""
+    cloud = tmp_path / "empty.xyz"
+    cloud.write_text("")
+    result = footfall("segment", cloud, "--out", tmp_path / "out")
+    assert result.exit_code == 2
+    (line,) = result.stderr.splitlines()
+    assert "empty.xyz" in line
+
+
+def test_a_programming_error_is_no_bad_input(stand, monkeypatch) -> None:
+    """It keeps its traceback."""
+
+    def broken(*_: object, **__: object) -> None:
+        raise AssertionError("a bug")
+
+    monkeypatch.setattr(sys.modules["diagrams.tasks"], "build_task", broken)
+    with pytest.raises(AssertionError, match="a bug"):
+        CliRunner().invoke(app, ["run", str(stand)], catch_exceptions=False)
+
+
+def test_pictures_of_a_run_are_made_again(stand, tmp_path) -> None:
+    """By `plot` and `replay`; they print the paths."""
+    footfall("run", stand, "--out", tmp_path / "out")
+    plotted = footfall("plot", tmp_path / "out")
+    assert plotted.exit_code == 0
+    assert str(tmp_path / "out" / "figures" / "joints.png") in plotted.stdout
+    replayed = footfall("replay", tmp_path / "out")
+    assert replayed.stdout.strip() == str(tmp_path / "out" / "replay.html")
+
+
+def test_diagram_is_written(stand, tmp_path) -> None:
+    """Where asked, and by default beside."""
+    result = footfall("diagram", stand, "--out", tmp_path / "deep" / "d.svg")
+    assert result.exit_code == 0
+    assert (tmp_path / "deep" / "d.svg").read_text().startswith("<?xml")
+    footfall("diagram", stand)
+    assert (tmp_path / "standing.svg").exists()
+
+
+def test_help_is_quick() -> None:
+    """Nothing of Drake is imported for it."""
+    import subprocess
+
+    code = (
+        "import sys; from diagrams.cli import app; "
+        "sys.exit(any(name.partition('.')[0] in ('pydrake', 'numpy', 'open3d') "
+        "for name in sys.modules))"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -1,0 +1,135 @@
+"""The runner: however a run stops, its folder is whole and says why."""
+
+import numpy as np
+import pytest
+
+from diagrams.evidence import gather
+from diagrams.signals import load_run
+from diagrams.simulation import run_task, simulate
+from models.scene import SceneParams
+from models.staircase import StaircaseParams
+from systems.values import TaskStatus
+
+
+def test_a_task_without_stairs_is_completed_by_standing(tmp_path, standing) -> None:
+    """Everything that was logged is there, and measured."""
+    scenario = standing.scenario(seed=7)
+    summary = run_task(standing.task(), scenario, tmp_path / "a" / "run")
+    assert summary.outcome == "completed"
+    assert summary.simulated_time_s == pytest.approx(0.7)
+    assert summary.max_impact_body_weights == pytest.approx(0.5, abs=0.1)
+    assert 0.0 < summary.min_zmp_margin_m < 0.1
+    run = load_run(tmp_path / "a" / "run")
+    assert run.scenario == scenario
+    assert run.summary["seed"] == 7
+    assert run.summary["real_time_factor"] > 0.0
+    assert run.signals["plant.state"]["time"].iloc[-1] == pytest.approx(0.695)
+    assert run.signals["plant.state"].shape == (140, 1 + 39 + 38)
+    activities = [value["activity"] for _, value in run.values("executive.status")]
+    assert activities == ["stand", "stand"]
+    assert set(run.summary["timing_us"]) >= {"executive", "contact_monitor", "station"}
+    assert [path.name for path in (tmp_path / "a").iterdir()] == ["run"]
+
+
+def test_same_seed_same_result(tmp_path, standing) -> None:
+    """Bit for bit."""
+    states = []
+    for name in "ab":
+        run_task(standing.task(), standing.scenario(), tmp_path / name)
+        states.append(load_run(tmp_path / name).signals["plant.state"].to_numpy())
+    np.testing.assert_array_equal(*states)
+
+
+def test_a_fall_ends_the_run(tmp_path, standing) -> None:
+    """It is seen in the true state: the clock goes on saying that all is well."""
+    task = standing.task(end=60.0, pitch=0.4)
+    summary = run_task(task, standing.scenario(max_time=20.0), tmp_path / "run")
+    assert summary.outcome == "fell"
+    assert summary.simulated_time_s < 5.0
+    assert summary.reason == f"the robot fell at {summary.simulated_time_s:.2f} s"
+
+
+def test_infeasible_ends_the_run_with_its_reason(tmp_path, standing) -> None:
+    """As the executive gives it."""
+    status = TaskStatus("infeasible", "plan", "the step is 40 cm high")
+    task = standing.task(0.1, status)
+    summary = run_task(task, standing.scenario(), tmp_path / "run")
+    assert (summary.outcome, summary.reason) == ("infeasible", status.reason)
+    assert summary.simulated_time_s == pytest.approx(0.1)
+
+
+def test_time_limit_ends_the_run(tmp_path, standing) -> None:
+    """Exactly then."""
+    task = standing.task(end=60.0)
+    summary = run_task(task, standing.scenario(max_time=0.33), tmp_path / "run")
+    assert (summary.outcome, summary.reason) == ("timed_out", "not done after 0.33 s")
+    assert summary.simulated_time_s == pytest.approx(0.33)
+
+
+@pytest.mark.parametrize(
+    ("error", "reason"),
+    [
+        (KeyboardInterrupt(), "interrupted at 0.2"),
+        (RuntimeError("the solver failed\nat length"), "RuntimeError: the solver fail"),
+    ],
+)
+def test_what_breaks_a_run_off_keeps_the_log(tmp_path, standing, error, reason) -> None:
+    """The log up to then is written, and where it broke."""
+    task = standing.task(0.2, error)
+    summary = run_task(task, standing.scenario(), tmp_path / "run")
+    assert summary.outcome == "timed_out"
+    assert reason in summary.reason
+    assert "\n" not in summary.reason
+    assert len(load_run(tmp_path / "run").signals["plant.state"]) >= 40
+    assert "_calc_status" in (tmp_path / "run" / "traceback.txt").read_text()
+
+
+def test_a_folder_in_use_is_refused_and_left_alone(tmp_path, standing) -> None:
+    """An empty one is taken."""
+    (tmp_path / "run").mkdir()
+    (tmp_path / "run" / "thesis.txt").write_text("years of work")
+    with pytest.raises(FileExistsError, match="run: exists and is not empty"):
+        run_task(standing.task(), standing.scenario(), tmp_path / "run")
+    assert [path.name for path in tmp_path.rglob("*")] == ["run", "thesis.txt"]
+    (tmp_path / "empty").mkdir()
+    run_task(standing.task(), standing.scenario(), tmp_path / "empty")
+    assert load_run(tmp_path / "empty").summary["outcome"] == "completed"
+
+
+def test_nothing_half_written_remains(tmp_path, standing, monkeypatch) -> None:
+    """A write that fails leaves no folder that looks like a run."""
+
+    def broken(*_: object) -> None:
+        raise OSError("disk full")
+
+    task = standing.task()
+    monkeypatch.setattr(task.signals, "write", broken)
+    with pytest.raises(OSError, match="disk full"):
+        run_task(task, standing.scenario(), tmp_path / "run")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_progress_is_told(standing) -> None:
+    """Every slice, with the time and what is done."""
+    told: list[tuple[float, str]] = []
+    simulate(standing.task(), 1.0, lambda time, activity: told.append((time, activity)))
+    times = [time for time, _ in told]
+    np.testing.assert_allclose(times, np.arange(1, 15) * 0.05)
+    assert {activity for _, activity in told} == {"stand"}
+
+
+def test_evidence_is_the_truth_of_the_plant(standing) -> None:
+    """Soles on the floor, limits of the URDF, touches of a step it stands in."""
+    scene = SceneParams(staircase=StaircaseParams(x=0.12, rise=0.05))
+    task = standing.task(scene=scene, end=0.05)
+    simulated = simulate(task, 0.1)
+    evidence = gather(task, simulated.context, simulated.stop, simulated.reason)
+    heights = evidence.motion.sole_corners["left"][0, :, 2]
+    np.testing.assert_allclose(heights, 0.0, atol=1e-9)
+    assert len(evidence.limits.torque) == 32
+    assert set(evidence.limits.torque.values()) == {100.0}
+    assert evidence.limits.speed["R_KNEE"] == pytest.approx(14.66, abs=0.01)
+    assert evidence.limits.weight == pytest.approx(62.4 * 9.81, rel=0.01)
+    assert {touch.solid for touch in evidence.touches} == {"staircase/step_1"}
+    assert set(evidence.joint_velocities) == set(evidence.limits.speed)
+    assert evidence.activities[0] == (0.0, "stand")
