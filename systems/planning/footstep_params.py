@@ -61,9 +61,9 @@ class FootstepPlannerParams:
     max_heel_overhang: float = 0.0
     """How far the heel may reach out over the tread's estimated front edge where the
     tread is too shallow for the whole sole, m."""
-    foothold_bias: float = 0.0
-    """Shifts the foothold from the middle of the tread (the paper's choice), m,
-    positive towards the next riser."""
+    foothold_bias: float = -0.01
+    """Shifts the foothold from the middle of the tread (the paper has 0), m,
+    positive towards the next riser; a little back leaves the lifting toes more room."""
     max_tread_turn: float = 0.175
     """Largest yaw between a tread and the staircase, rad (10 deg); more is a spiral."""
 

@@ -137,18 +137,23 @@ def plan_motion(
     )
 
 
-def stance_zmp(pose: Vector, foot: Foot, params: MotionPlannerParams) -> Vector:
+def stance_zmp(
+    pose: Vector, foot: Foot, forward: float, params: MotionPlannerParams
+) -> Vector:
     """Where the ZMP is to be while the robot stands on one foot, p_WZmp, (3,)."""
     left: Vector = heading(pose[5] + np.pi / 2.0)
     inward = -left if foot == "left" else left
     p_WZmp = pose[:3].copy()
-    p_WZmp[:2] += params.zmp_forward * heading(pose[5]) + params.zmp_inward * inward
+    p_WZmp[:2] += forward * heading(pose[5]) + params.zmp_inward * inward
     return p_WZmp
 
 
 def middle_zmp(feet: Vector, params: MotionPlannerParams) -> Vector:
     """Where the ZMP is to be while the robot stands on both feet, p_WZmp, (3,)."""
-    both = [stance_zmp(feet[i], foot, params) for i, foot in enumerate(FEET)]
+    both = [
+        stance_zmp(feet[i], foot, params.zmp_forward, params)
+        for i, foot in enumerate(FEET)
+    ]
     middle: Vector = np.mean(both, axis=0)
     return middle
 
@@ -178,7 +183,8 @@ def _zmp_reference(
     first[:2] = com[:2]
     keys = [(0.0, first), (0.3 * params.lead_in, first)]
     for step in steps:
-        point = stance_zmp(step.stance, other_foot(step.foot), params)
+        forward = params.climb_zmp_forward if step.climbs else params.zmp_forward
+        point = stance_zmp(step.stance, other_foot(step.foot), forward, params)
         keys += [(step.lift, point), (step.land, point)]
     keys.append((end - 0.4 * params.lead_out, middle_zmp(final, params)))
     times = [key[0] for key in keys]

@@ -21,7 +21,7 @@ class MotionPlannerParams:
     """Both feet down between level steps, s."""
     climb_single_support: float = 0.80
     """One foot in the air, climbing steps, s."""
-    climb_double_support: float = 0.40
+    climb_double_support: float = 0.50
     """Both feet down after a climbing step, s: the rear foot pushes off."""
     climb_threshold: float = 0.04
     """A height difference above this makes a step a climbing step, m."""
@@ -40,6 +40,8 @@ class MotionPlannerParams:
     """Clearances of the foot in the air."""
     zmp_forward: float = 0.035
     """ZMP in single support ahead of the ankle, m: near the middle of the sole."""
+    climb_zmp_forward: float = 0.06
+    """The same while climbing, m: nearer to the knee, which has less to carry."""
     zmp_inward: float = 0.008
     """ZMP in single support towards the other foot, m: a shorter way to sway."""
     lean: float = 0.30
@@ -75,6 +77,7 @@ class MotionPlannerParams:
                 raise ValueError(f"{name}: must be positive, got {getattr(self, name)}")
         for name in (
             "zmp_forward",
+            "climb_zmp_forward",
             "zmp_inward",
             "lean",
             "max_toe_off",
