@@ -1,6 +1,9 @@
 """The block diagram of a closed loop as a picture."""
 
+import os
 from collections import defaultdict
+from collections.abc import Iterator
+from contextlib import contextmanager
 from html import escape
 from typing import NamedTuple
 
@@ -125,8 +128,22 @@ def block_diagram_svg(diagram: Diagram, title: str) -> str:
             style="dashed" if wire.abstract else "solid",
             edgetooltip=f"{wire.source}.{wire.output} -> {wire.target}.{wire.input}",
         )
-    picture: bytes = graph.draw(format="svg", prog="dot")
+    with _without_library_warnings():
+        picture: bytes = graph.draw(format="svg", prog="dot")
     return picture.decode("utf-8")
+
+
+@contextmanager
+def _without_library_warnings() -> Iterator[None]:
+    """Graphviz's font library complains of the system's settings to stderr itself."""
+    saved = os.dup(2)
+    try:
+        with open(os.devnull, "w") as nowhere:
+            os.dup2(nowhere.fileno(), 2)
+            yield
+    finally:
+        os.dup2(saved, 2)
+        os.close(saved)
 
 
 def _is_log(system: System) -> bool:

@@ -14,7 +14,7 @@ from diagrams.task_diagram import TaskDiagram
 from diagrams.true_motion import TrueMotion, true_motion
 from models.staircase import Tread
 from systems.ports import Vector
-from systems.values import PlaneSegmentation, TaskStatus, Touch, Touches
+from systems.values import PlaneSegmentation, Staircase, TaskStatus, Touch, Touches
 
 Stop: TypeAlias = Literal[
     "finished", "infeasible", "fell", "time limit", "interrupted", "error"
@@ -58,7 +58,9 @@ class Evidence:
     activities: tuple[tuple[float, str], ...] | None = None
     """When, s, the executive turned to what; None where that was not logged."""
     segmentations: tuple[PlaneSegmentation, ...] = ()
-    """What perception saw, one entry a frame."""
+    """What perception saw, one entry a frame; empty where that was not logged."""
+    staircases: tuple[Staircase, ...] = ()
+    """What was made of it, one entry a change."""
 
 
 def gather(
@@ -67,7 +69,7 @@ def gather(
     """Gathers what there is to know about a simulation that has stopped.
 
     Abstract signals are found by the type of what they carry (`Touches`, `TaskStatus`,
-    `PlaneSegmentation`).
+    `PlaneSegmentation`, `Staircase`).
 
     Args:
         task: the closed loop.
@@ -105,6 +107,9 @@ def gather(
             entry.value
             for entry in entries
             if isinstance(entry.value, PlaneSegmentation) and entry.value.times_ms
+        ),
+        staircases=tuple(
+            entry.value for entry in entries if isinstance(entry.value, Staircase)
         ),
     )
 

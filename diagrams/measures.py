@@ -22,7 +22,7 @@ SOLE_ON_TREAD = 0.75
 overhang, as climbing a high step with short treads requires."""
 HEIGHT_TOLERANCE = 0.01
 """How far the corners of a standing sole may be above or below its tread, m."""
-LIFTED_CORNER = 0.005
+LIFTED_CORNER = 0.01
 """Height above a sole's lowest corner from which a corner bears nothing, m."""
 
 

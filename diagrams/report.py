@@ -242,37 +242,52 @@ def joints_figure(data: RunData) -> Figure:
     figure = _figure(11.0, 7.0)
     torques, speeds = figure.subplots(2, 1, sharex=True)
     logged = data.signal("plant.net_actuation")
+    limits = data.limits
     series: dict[str, Vector] = {}
     torque_time = np.zeros(0)
     if logged is not None:
         samples = logged.to_numpy(dtype=np.float64)
         torque_time = samples[:, 0]
-        series = dict(zip(data.limits.torque, samples[:, 1:].T, strict=True))
-    _shares(torques, data, torque_time, series, data.limits.torque, "torque / limit")
-    time = data.motion.time
-    _shares(speeds, data, time, data.velocities, data.limits.speed, "speed / limit")
+        series = dict(zip(limits.torque, samples[:, 1:].T, strict=True))
+    torque = {joint: values / limits.torque[joint] for joint, values in series.items()}
+    speed = {joint: v / limits.speed[joint] for joint, v in data.velocities.items()}
+    shown = [*_extreme_joints(torque), *_extreme_joints(speed)]
+    colors = {joint: f"C{index}" for index, joint in enumerate(dict.fromkeys(shown))}
+    _shares(torques, data, torque_time, torque, colors, "torque / limit")
+    _shares(speeds, data, data.motion.time, speed, colors, "speed / limit")
     speeds.set_xlabel("time [s]")
     _title(figure, data, "joints")
     return figure
+
+
+def _extreme_joints(shares: Mapping[str, Vector]) -> list[str]:
+    """The joints that came nearest to their limits, the nearest first."""
+    order = sorted(shares, key=lambda joint: -float(np.abs(shares[joint]).max()))
+    return order[:SHOWN_JOINTS]
 
 
 def _shares(
     ax: Axes,
     data: RunData,
     time: Vector,
-    series: Mapping[str, Vector],
-    limits: Mapping[str, float],
+    shares: Mapping[str, Vector],
+    colors: Mapping[str, str],
     label: str,
 ) -> None:
     """The joints nearest to their limits in colour, the others in grey."""
     _shade_activities(ax, data)
-    shares = {joint: values / limits[joint] for joint, values in series.items()}
-    order = sorted(shares, key=lambda joint: float(np.abs(shares[joint]).max()))
-    for joint in order[:-SHOWN_JOINTS]:
-        ax.plot(time, shares[joint], color="#ced4da", lw=0.6)
-    for joint in order[-SHOWN_JOINTS:][::-1]:
+    extreme = _extreme_joints(shares)
+    for joint in shares.keys() - set(extreme):
+        ax.plot(time, shares[joint], color="#ced4da", lw=0.6, zorder=1)
+    for joint in extreme:
         peak = float(np.abs(shares[joint]).max())
-        ax.plot(time, shares[joint], lw=0.9, label=f"{joint} ({peak:.2f})")
+        ax.plot(
+            time,
+            shares[joint],
+            color=colors[joint],
+            lw=0.9,
+            label=f"{joint} {peak:.2f}",
+        )
     for limit in (-1.0, 1.0):
         ax.axhline(limit, color="#c92a2a", lw=1.0, ls="--")
     ax.set_ylim(-1.15, 1.15)
@@ -305,9 +320,12 @@ def _shade_activities(ax: Axes, data: RunData) -> None:
     entries = data.run.values("executive.status")
     ends = [*(time for time, _ in entries[1:]), float(data.motion.time[-1])]
     for (start, status), end in zip(entries, ends, strict=True):
-        color = ACTIVITY_COLORS.get(str(status.get("activity")))
+        activity = str(status.get("activity"))
+        color = ACTIVITY_COLORS.get(activity)
         if color is not None:
-            ax.axvspan(start, end, color=color, lw=0, zorder=0)
+            labelled = activity in ax.get_legend_handles_labels()[1]
+            label = "_" if labelled else activity
+            ax.axvspan(start, end, color=color, lw=0, zorder=0, label=label)
 
 
 def _plot_column(

@@ -183,7 +183,9 @@ def summarize(task: TaskDiagram, scenario: Scenario, simulated: Simulated) -> Su
         simulated_time_s=simulated_time,
         wall_time_s=simulated.wall_time,
         real_time_factor=simulated_time / simulated.wall_time or None,
-        perception=perception_summary(evidence.segmentations, evidence.treads),
+        perception=perception_summary(
+            evidence.segmentations, evidence.staircases, evidence.treads
+        ),
         timing_us=timing_us(task.diagram),
         versions=installed_versions(),
     )

@@ -14,7 +14,13 @@ from diagrams.outcome import Judgement
 from models.staircase import Tread
 from systems.ports import Vector
 from systems.timing import stopwatch
-from systems.values import Json, PlaneSegment, PlaneSegmentation, to_json
+from systems.values import (
+    Json,
+    PlaneSegment,
+    PlaneSegmentation,
+    Staircase,
+    to_json,
+)
 
 PACKAGES = ("footfall", "drake", "numpy", "scipy", "open3d-cpu", "daqp")
 """Whose versions a summary names."""
@@ -87,41 +93,50 @@ def installed_versions() -> dict[str, str]:
 
 
 def perception_summary(
-    segmentations: Sequence[PlaneSegmentation], treads: Sequence[Tread]
+    segmentations: Sequence[PlaneSegmentation],
+    staircases: Sequence[Staircase],
+    treads: Sequence[Tread],
 ) -> dict[str, Json] | None:
-    """How perception did; None where it did not run.
+    """How perception did; None where nothing of it was logged.
 
     Args:
-        segmentations: one a frame, poses in W.
+        segmentations: one a frame, poses in W; empty where they were not logged.
+        staircases: what was made of them, one a change, poses in W.
         treads: the true ones.
 
     Returns:
-        `frames`; `ms_per_frame`: median by stage and in all; `errors`: over all frames
-        and treads the mean and largest error of the height (m), of the front edge (m)
-        and of the normal (deg), None where there is nothing to compare.
+        `frames` and `ms_per_frame`, the median by stage and in all, None without
+        segmentations; `errors`: over all treads of all frames (of the staircases
+        where the frames were not logged) the mean and largest error of the height (m),
+        of the front edge (m) and of the normal (deg), None where there is nothing to
+        compare.
     """
-    if not segmentations:
+    if segmentations:
+        staircases = [segmentation.staircase for segmentation in segmentations]
+    if not any(staircase.treads for staircase in staircases) and not segmentations:
         return None
+    errors = [
+        error
+        for staircase in staircases
+        for seen in staircase.treads
+        if (error := _tread_error(seen, treads)) is not None
+    ]
+    return {
+        "frames": len(segmentations) or None,
+        "ms_per_frame": _stage_medians(segmentations) if segmentations else None,
+        "errors": _error_summary(np.array(errors)) if errors else None,
+    }
+
+
+def _stage_medians(segmentations: Sequence[PlaneSegmentation]) -> dict[str, Json]:
+    """Median time of every stage and of a whole frame, ms."""
     stages: dict[str, list[float]] = {}
     for segmentation in segmentations:
         for stage, milliseconds in segmentation.times_ms:
             stages.setdefault(stage, []).append(milliseconds)
         total = sum(milliseconds for _, milliseconds in segmentation.times_ms)
         stages.setdefault("total", []).append(total)
-    medians: dict[str, Json] = {
-        stage: round(float(np.median(times)), 2) for stage, times in stages.items()
-    }
-    errors = [
-        error
-        for segmentation in segmentations
-        for seen in segmentation.staircase.treads
-        if (error := _tread_error(seen, treads)) is not None
-    ]
-    return {
-        "frames": len(segmentations),
-        "ms_per_frame": medians,
-        "errors": _error_summary(np.array(errors)) if errors else None,
-    }
+    return {stage: round(float(np.median(times)), 2) for stage, times in stages.items()}
 
 
 def _tread_error(seen: PlaneSegment, treads: Sequence[Tread]) -> Vector | None:

@@ -72,7 +72,7 @@ def test_perception_is_measured_against_the_true_treads() -> None:
             (0.0, 0.0, 0.0, 14.0),
         )
     ]
-    data = perception_summary(frames, TREADS)
+    data = perception_summary(frames, [], TREADS)
     assert data["frames"] == 3
     assert data["ms_per_frame"] == {"normals": 14.0, "merge": 2.0, "total": 16.0}
     errors = data["errors"]
@@ -85,9 +85,17 @@ def test_perception_is_measured_against_the_true_treads() -> None:
 
 def test_perception_that_did_not_run_is_none() -> None:
     """And without a true staircase there are no errors."""
-    assert perception_summary([], TREADS) is None
+    assert perception_summary([], [Staircase()], TREADS) is None
     frame = PlaneSegmentation(staircase=Staircase((seen(0.0, 0.0),)))
-    assert perception_summary([frame], [])["errors"] is None
+    assert perception_summary([frame], [], [])["errors"] is None
+
+
+def test_staircases_serve_where_frames_were_not_logged() -> None:
+    """Their errors are known, how long they took is not."""
+    data = perception_summary([], [Staircase(), Staircase((seen(0.0, 0.01),))], TREADS)
+    assert data["errors"]["max_height_m"] == pytest.approx(0.01)
+    assert data["frames"] is None
+    assert data["ms_per_frame"] is None
 
 
 def test_timing_names_the_systems(standing) -> None:
