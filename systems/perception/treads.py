@@ -24,6 +24,11 @@ CELL = 0.04
 OVERHANG = 0.012
 """A tread that ends this far before the face below it overhangs it, m; less may be the
 noise of its own end."""
+FACE = 0.07
+"""How far from a tread's plane its faces are looked at, m: short of the least rise of
+a staircase, 10 cm, and of the noise of the tread there."""
+SHADOW = 0.25
+"""Widest shadow across a tread, m: of a leg."""
 MIN_FACE_POINTS = 25
 """Fewer points do not make a face."""
 
@@ -164,12 +169,12 @@ def _bound(patch: Patch, local: Vector, rotation: Vector) -> Tread:
     right, left = -_strip_end(x, -y), _strip_end(x, y)
     front, back = -_strip_end(y, -x), _strip_end(y, x)
     inside = (local[:, 1] > right + BIN) & (local[:, 1] < left - BIN)
-    face = inside & (off < -thickness) & (off > -0.10)
+    face = inside & (off < -thickness) & (off > -FACE)
     standing, found = _face(local[face, 0], front)
     # A nosing overhangs its riser: then the tread's own end counts.
     overhang = max(OVERHANG, 0.8 * thickness)
     front = standing if found and front > standing - overhang else front
-    riser = inside & (off > thickness) & (off < 0.10)
+    riser = inside & (off > thickness) & (off < FACE)
     standing, ends = _face(local[riser, 0], back)
     back = standing if ends else back
     before = inside & (off < -0.03) & (local[:, 0] < front + BIN)
@@ -190,9 +195,11 @@ def _bound(patch: Patch, local: Vector, rotation: Vector) -> Tread:
 
 
 def _hanging_together(slab: Vector, core: Vector) -> Vector:
-    """The points of a slab that hang together with the core's, in plan view.
+    """The points of a slab that are the core's tread, in plan view.
 
-    The core may be in several parts, where something hides the rest of a tread.
+    These are the pieces that hang together with the core, which may be in several where
+    something hides the rest, and pieces beside it, behind the shadow of a leg, that
+    are too small for a plane of their own.
     """
     both = np.concatenate([slab, core])[:, :2]
     cells = np.floor(both / CELL).astype(np.int64)
@@ -200,10 +207,25 @@ def _hanging_together(slab: Vector, core: Vector) -> Vector:
     size = cells.max(axis=0) + 2
     occupied = np.zeros(size, dtype=bool)
     occupied[cells[:, 0], cells[:, 1]] = True
-    label = ndimage.label(occupied, np.ones((3, 3)))[0]
+    label, count = ndimage.label(occupied, np.ones((3, 3)))
     of_point = label[cells[:, 0], cells[:, 1]]
-    wanted = np.bincount(of_point[len(slab) :], minlength=int(label.max()) + 1)
-    return np.asarray(slab[wanted[of_point[: len(slab)]] >= MIN_FACE_POINTS])
+    wanted = np.bincount(of_point[len(slab) :], minlength=count + 1)
+    own = wanted >= MIN_FACE_POINTS
+    of_slab = of_point[: len(slab)]
+    main = slab[own[of_slab]]
+    if not len(main):
+        return core
+    (front, right), (back, left) = main[:, :2].min(axis=0), main[:, :2].max(axis=0)
+    for number in np.unique(of_slab[~own[of_slab]]):
+        piece = slab[of_slab == number, :2]
+        if len(piece) < MIN_FACE_POINTS:
+            continue
+        low, high = piece.min(axis=0), piece.max(axis=0)
+        between = max(low[1] - left, right - high[1])
+        fits = low[0] > front - BIN and high[0] < back + BIN
+        if fits and between <= SHADOW and high[0] - low[0] > 0.5 * (back - front):
+            own[number] = True
+    return np.asarray(slab[own[of_slab]])
 
 
 def _strip_end(across: Vector, along: Vector) -> float:
@@ -235,7 +257,7 @@ def _common_slope(treads: list[Tread], local: Vector) -> float:
     for tread in treads:
         low, high = tread.low, tread.high
         off = (local - tread.point) @ tread.normal
-        face = (off < -SLAB) & (off > -0.10)
+        face = (off < -SLAB) & (off > -FACE)
         face &= np.abs(local[:, 0] - low[0]) < 0.05
         face &= (local[:, 1] > low[1]) & (local[:, 1] < high[1])
         if np.count_nonzero(face) >= MIN_FACE_POINTS:

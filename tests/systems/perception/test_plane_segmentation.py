@@ -317,3 +317,19 @@ def test_cinder_blocks(data: Path) -> None:
     assert found.staircase.treads == ()
     level, _ = segment_planes(cloud, GRAVITY, PlaneSegmenterParams())
     assert len(level.planes) < len(found.planes)
+
+
+def test_narrow_treads_behind_legs(scan: Scan, stair_scene: Any) -> None:
+    """Low open steps; the strips beyond the legs' shadows are too small for planes."""
+    scene = stair_scene(
+        steps=4, rise=0.106, run=0.27, width=0.51, yaw=-0.055, open_risers=True
+    )
+    for stands_on in (0, 2):
+        eye = scene.sensor(stands_on)
+        cloud = scan(scene, eye)
+        fall = np.maximum(eye[2] - cloud[:, 2:], 0.01)
+        way = (cloud - eye) / fall
+        hidden = (np.abs(np.abs(way[:, 1]) - 0.10) < 0.035) & (way[:, 0] < 0.46)
+        hidden &= fall[:, 0] > 0.1
+        found, _ = segment_planes(cloud[~hidden], GRAVITY, PARAMS, eye)
+        check_treads(found, scene, list(range(stands_on + 1, 4)))
