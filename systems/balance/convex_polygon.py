@@ -11,8 +11,8 @@ _TOUCH = 1e-12
 def clip_square(normals: Vector, offsets: Vector, half_side: float) -> Vector:
     """The part of a square about the origin that lies in all half planes.
 
-    Cuts the worst violated corner off until none is violated: as many cuts as the
-    result has edges or a few more, however many half planes there are.
+    Cuts by the half planes that the corners violate most, until none is violated: a
+    few cuts more than the result has edges, however many half planes there are.
 
     Args:
         normals: unit normals, (k, 2).
@@ -26,31 +26,41 @@ def clip_square(normals: Vector, offsets: Vector, half_side: float) -> Vector:
     vertices = [(-r, -r), (r, -r), (r, r), (-r, r)]
     while vertices:
         outside = normals @ np.array(vertices).T - offsets[:, None]
-        worst = outside.max(axis=1, initial=-np.inf)
-        violated = worst > _TOUCH
+        violated = outside.max(axis=1, initial=-np.inf) > _TOUCH
         if not violated.any():
             break
         # A half plane that holds everywhere goes on to hold on what is left.
-        cut = outside[worst.argmax()].tolist()
-        violated[worst.argmax()] = False
-        normals, offsets = normals[violated], offsets[violated]
-        vertices = _cut(vertices, cut)
+        normals, offsets, outside = (
+            normals[violated],
+            offsets[violated],
+            outside[violated],
+        )
+        worst = sorted(set(outside.argmax(axis=0).tolist()))
+        for normal, offset in zip(
+            normals[worst].tolist(), offsets[worst].tolist(), strict=True
+        ):
+            vertices = _cut(vertices, normal, offset)
     return simplified(np.array(vertices).reshape(-1, 2))
 
 
 def _cut(
-    vertices: list[tuple[float, float]], outside: list[float]
+    vertices: list[tuple[float, float]], normal: list[float], offset: float
 ) -> list[tuple[float, float]]:
-    """The polygon without the side on which `outside`, one a vertex, is positive."""
+    """The part of the polygon in the half plane."""
+    if not vertices:
+        return vertices
+    n_x, n_y = normal
     kept = []
-    for i, (x, y) in enumerate(vertices):
-        d, d_next = outside[i], outside[i + 1 - len(vertices)]
+    x_0, y_0 = vertices[-1]
+    d_0 = n_x * x_0 + n_y * y_0 - offset
+    for x, y in vertices:
+        d = n_x * x + n_y * y - offset
+        if (d < 0.0 < d_0) or (d_0 < 0.0 < d):
+            t = d_0 / (d_0 - d)
+            kept.append((x_0 + t * (x - x_0), y_0 + t * (y - y_0)))
         if d <= 0.0:
             kept.append((x, y))
-        if (d < 0.0 < d_next) or (d_next < 0.0 < d):
-            x_next, y_next = vertices[i + 1 - len(vertices)]
-            t = d / (d - d_next)
-            kept.append((x + t * (x_next - x), y + t * (y_next - y)))
+        x_0, y_0, d_0 = x, y, d
     return kept
 
 

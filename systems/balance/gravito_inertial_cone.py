@@ -92,11 +92,14 @@ def cone_of_generators(G: Vector, p_WQ: Vector) -> GravitoInertialCone:
     else:
         basis, normals = U[:, :rank], U[:, rank:].T
         reduced = basis.T @ G
-    # Steeply pushing generators first, in the order given: half the time of cdd's own
-    # order, and no less exact.
+    # Steeply pushing generators first, in the order given: two thirds of the time of
+    # cdd's own order, and no less exact. Where cdd meets an inconsistency in one order
+    # (one stance of yawed feet in twenty) it mostly does not in another.
     array = np.zeros((reduced.shape[1], reduced.shape[0] + 1))
-    array[:, 1:] = reduced.T[np.argsort(G[2], kind="stable")]
-    rows = _double_description(array)
+    array[:, 1:] = reduced.T
+    rows = _double_description(array[np.argsort(G[2], kind="stable")])
+    if len(rows) == 0:
+        rows = _double_description(array[::-1])
     if basis is not None:
         rows = rows @ basis.T
     proven = (rows @ G).max(axis=1, initial=-np.inf) <= _VALID
@@ -112,8 +115,7 @@ def _double_description(rays: Vector) -> Vector:
         )
         inequalities = cdd.copy_inequalities(polyhedron)
     except RuntimeError:
-        # cdd met a numerical inconsistency; an answer without rows proves nothing and
-        # cannot pass its check.
+        # A numerical inconsistency; an answer without rows cannot pass its check.
         return np.zeros((0, rays.shape[1] - 1))
     rows = -np.array(inequalities.array).reshape(-1, rays.shape[1])[:, 1:]
     equalities = sorted(inequalities.lin_set)

@@ -42,7 +42,7 @@ HALF_SIDE = 10.0
 _UNREACHED = 1e-9
 """A wrench further than this from the cone, in weights (and m), is outside it."""
 _FLAT = 1e-9
-"""A row whose part in the plane is shorter than this bounds no point, 1."""
+"""A row whose part in the plane is shorter holds for every point or for none, 1."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -188,16 +188,16 @@ def _polygon(
         return StabilityPolygon(status="no_contact", method=method)
     G, p_WQ = centred_generators(contacts)
     slices = slices_about(p_WQ)
-    caught = False
+    caught, vertices = False, np.zeros((0, 2))
     if method == "double_description":
-        if not _exists(G, slices):
-            return StabilityPolygon()
         cone = cone_of_generators(G, p_WQ)
         if not _loses_a_dimension(cone, slices):
             vertices = _clip(cone, slices)
             if len(vertices) > 2 and _proven(G, slices, vertices):
                 return _result(vertices, p_WQ, method, caught=False)
             caught = True
+        if not _exists(G, slices):
+            return StabilityPolygon(caught=caught and len(vertices) > 0)
     try:
         vertices = project(G, slices, HALF_SIDE)
     except LinearProgrammeError:
@@ -238,6 +238,8 @@ def _clip(cone: GravitoInertialCone, slices: list[WrenchSlice]) -> Vector:
     offsets = np.concatenate([-cone.rows @ part.w_0 for part in slices])
     length = np.sqrt((normals * normals).sum(axis=1))
     bounds = length > _FLAT
+    if (offsets[~bounds] < -_UNREACHED).any():
+        return np.zeros((0, 2))
     normals, offsets, length = normals[bounds], offsets[bounds], length[bounds]
     return clip_square(normals / length[:, None], offsets / length, HALF_SIDE)
 
