@@ -1,8 +1,8 @@
 """What a fan of beams meets: a fixed scene, and rigid meshes that move through it."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 import open3d as o3d
@@ -11,6 +11,9 @@ from pydrake.math import RigidTransform
 from models.solids import TriangleMesh
 from systems.ports import Vector
 from systems.values import Value
+
+Beams: TypeAlias = slice | np.ndarray[Any, np.dtype[np.int64]]
+"""Some of the beams, by their place among all."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,15 +64,45 @@ class RayCaster:
         Returns:
             True distances, (n,), m; inf where nothing is met.
         """
-        distances = _hit(self._scene, X_WL, directions)
+
+        def in_sphere(p_LC: Vector, radius: float) -> Iterable[Beams]:
+            ranges = _beams_in_sphere(p_LC, radius, angles)
+            return (slice(first, last) for first, last in ranges)
+
+        # One thread: a fan is so small that handing it out costs more than casting.
+        return self.cast_beams(X_WL, directions, body_poses, in_sphere, threads=1)
+
+    def cast_beams(
+        self,
+        X_WL: RigidTransform,
+        directions: Vector,
+        body_poses: Sequence[RigidTransform],
+        in_sphere: Callable[[Vector, float], Iterable[Beams]],
+        *,
+        threads: int,
+    ) -> Vector:
+        """Distances to the nearest surface along beams in any directions.
+
+        Args:
+            X_WL: pose of the sensor, from whose origin the beams leave.
+            directions: where they go, in L, (n, 3). Where these are no unit vectors,
+                distances are in units of their lengths.
+            body_poses: X_WB of every body, indexed by `BodyMesh.body_index`.
+            in_sphere: the beams that may pass through a sphere, by its centre in L,
+                (3,), m, and its radius, m; no beam more than once.
+            threads: how many threads to cast on; 0 for all there are.
+
+        Returns:
+            True distances, (n,); inf where nothing is met.
+        """
+        distances = _hit(self._scene, X_WL, directions, threads)
         X_LW = X_WL.inverse()
         for body in self._bodies:
             X_LB = X_LW.multiply(body_poses[body.index])
-            for first, last in _beams_in_sphere(
-                np.array(X_LB.multiply(body.centre)), body.radius, angles
-            ):
-                near = _hit(body.tree, X_LB.inverse(), directions[first:last])
-                np.minimum(distances[first:last], near, out=distances[first:last])
+            X_BL = X_LB.inverse()
+            for beams in in_sphere(np.array(X_LB.multiply(body.centre)), body.radius):
+                near = _hit(body.tree, X_BL, directions[beams], threads)
+                distances[beams] = np.minimum(distances[beams], near)
         return distances
 
 
@@ -97,14 +130,16 @@ def _tree(
 
 
 def _hit(
-    tree: o3d.t.geometry.RaycastingScene, X_TL: RigidTransform, directions: Vector
+    tree: o3d.t.geometry.RaycastingScene,
+    X_TL: RigidTransform,
+    directions: Vector,
+    threads: int,
 ) -> Vector:
     """Distances along directions in L, (n, 3), to a tree whose frame is T."""
     rays = np.empty((len(directions), 6), dtype=np.float32)
     rays[:, :3] = X_TL.translation()
     rays[:, 3:] = directions @ X_TL.rotation().matrix().T
-    # One thread: a fan is so small that handing it out costs more than casting it.
-    cast = tree.cast_rays(o3d.core.Tensor.from_numpy(rays), nthreads=1)
+    cast = tree.cast_rays(o3d.core.Tensor.from_numpy(rays), nthreads=threads)
     distances: Vector = cast["t_hit"].numpy().astype(np.float64)
     return distances
 
