@@ -73,6 +73,14 @@ def test_rolling_over_the_toes_is_no_slip_but_turning_is() -> None:
     assert slip == pytest.approx(2.0 * np.sin(0.3) * np.hypot(HEEL, HALF))
 
 
+def test_turning_about_one_corner_is_slip() -> None:
+    """One corner stays, but a foot does not stand on a point."""
+    turned = np.stack([sole(0.0, yaw=angle) for angle in (0.0, 0.1)])
+    turned[1] += turned[0, 0] - turned[1, 0]
+    slip = foot_slip(turned, np.full(2, WEIGHT), WEIGHT)
+    assert slip == pytest.approx(2.0 * np.sin(0.05) * 2.0 * HALF)
+
+
 def test_zmp_of_one_foot_is_where_its_force_acts() -> None:
     """A force at a known point of the sole gives that point back, on a turned foot."""
     X_WF = RigidTransform(RollPitchYaw(0.05, -0.1, 0.7), np.array([1.0, 2.0, 0.4]))

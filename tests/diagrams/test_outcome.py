@@ -104,6 +104,13 @@ def test_a_climb_is_completed_and_counted(climb: Evidence) -> None:
     assert judgement.min_zmp_margin_m == pytest.approx(0.042)
 
 
+def test_a_step_is_climbed_by_both_feet(climb: Evidence) -> None:
+    """One foot on the second tread and one on the floor have climbed none."""
+    motion = motion_of(LEFT, ["floor"] * 7)
+    judgement = judge(replace(climb, motion=motion, stop="time limit"))
+    assert judgement.steps_climbed == 0
+
+
 def test_climb_time_counts_motion_only(climb: Evidence) -> None:
     """From 1 s to the last touch-down at 5 s, without half a second of scanning."""
     assert judge(climb).climb_time_s == pytest.approx(1.0 + 2.5)

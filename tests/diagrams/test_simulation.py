@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from diagrams.evidence import gather
+from diagrams.evidence import gather, joint_velocities
 from diagrams.signals import load_run
 from diagrams.simulation import run_task, simulate
 from models.scene import SceneParams
@@ -133,3 +133,18 @@ def test_evidence_is_the_truth_of_the_plant(standing) -> None:
     assert {touch.solid for touch in evidence.touches} == {"staircase/step_1"}
     assert set(evidence.joint_velocities) == set(evidence.limits.speed)
     assert evidence.activities[0] == (0.0, "stand")
+
+
+def test_joint_velocities_go_by_name(standing) -> None:
+    """Those of the state's second half, without the floating base."""
+    task = standing.task()
+    context = task.plant.CreateDefaultContext()
+    for joint, speed in (("R_KNEE", 1.5), ("L_WRIST_Y", -0.25)):
+        task.plant.GetJointByName(joint).set_angular_rate(context, speed)
+    state = task.plant.GetPositionsAndVelocities(context, task.robot_instance)
+    speeds = joint_velocities(task.plant, task.robot_instance, state[None])
+    assert len(speeds) == 32
+    assert {name: v[0] for name, v in speeds.items() if v[0] != 0.0} == {
+        "R_KNEE": 1.5,
+        "L_WRIST_Y": -0.25,
+    }

@@ -24,15 +24,21 @@ import systems
 from models.jvrc1 import JVRC1
 from models.robot_loader import add_robot
 from models.solids import triangle_mesh
+from systems.balance.com_reference import ComReference
 from systems.balance.landing_adaptor import LandingAdaptor, LandingParams
 from systems.balance.stabilizer import Stabilizer, StabilizerParams
 from systems.balance.static_stability import StaticStability
+from systems.balance.zmp_preview import ZmpPreviewParams
 from systems.balance.zmp_preview_controller import ZmpPreviewController
+from systems.disturbance.pusher import Pusher
 from systems.perception.plane_segmenter import PlaneSegmenter
 from systems.perception.scan_assembler import ScanAssembler, ScanAssemblerParams
 from systems.perception.staircase_map import StaircaseMap
+from systems.planning.executive import Executive, ExecutiveParams
 from systems.planning.footstep_params import FootstepPlannerParams
 from systems.planning.footstep_planner import FootstepPlanner
+from systems.planning.motion_params import MotionPlannerParams
+from systems.planning.motion_planner import MotionPlanner
 from systems.planning.motion_player import MotionPlayer
 from systems.sensing.contact_monitor import ContactMonitor, WatchedGeometry
 from systems.sensing.foot_wrench_sensor import FootWrenchSensor
@@ -42,6 +48,7 @@ from systems.tracking.ik_tracker import IkTracker
 from systems.tracking.whole_body_feedforward import WholeBodyFeedforward
 from systems.tracking.whole_body_ik import IkParams
 from systems.value_log_sink import ValueLogSink
+from systems.values import MotionPlan
 
 
 @cache
@@ -58,8 +65,30 @@ def _plant() -> MultibodyPlant:
     return robot_alone()[0]
 
 
+def standing_plan() -> MotionPlan:
+    """A plan of one row: both feet on the ground."""
+    row = np.zeros((1, 3))
+    return MotionPlan(
+        start_time=0.0,
+        period=0.005,
+        footsteps=(),
+        phases=(),
+        contacts=np.ones((1, 2)),
+        foot_poses=np.zeros((1, 2, 6)),
+        contact_lengths=np.full((1, 2), JVRC1.sole.length),
+        com=row,
+        com_velocity=row,
+        com_acceleration=row,
+        zmp=row,
+        cart_zmp=np.zeros((1, 2)),
+        waist=row,
+    )
+
+
 FACTORIES: dict[type[LeafSystem], Callable[[], LeafSystem]] = {
+    ComReference: ComReference,
     ContactMonitor: lambda: ContactMonitor(WatchedGeometry((), (), {}, {}), 0.002),
+    Executive: lambda: Executive(ExecutiveParams(), standing_plan()),
     FootWrenchSensor: lambda: FootWrenchSensor(*robot_alone(), JVRC1),
     FootstepPlanner: lambda: FootstepPlanner(FootstepPlannerParams(), JVRC1.sole),
     IkTracker: lambda: IkTracker(
@@ -67,8 +96,12 @@ FACTORIES: dict[type[LeafSystem], Callable[[], LeafSystem]] = {
     ),
     KinematicState: lambda: KinematicState(_plant(), JVRC1),
     LandingAdaptor: lambda: LandingAdaptor(LandingParams(), np.zeros(12)),
+    MotionPlanner: lambda: MotionPlanner(
+        MotionPlannerParams(), ZmpPreviewParams(), JVRC1
+    ),
     MotionPlayer: lambda: MotionPlayer(320),
     PlaneSegmenter: PlaneSegmenter,
+    Pusher: lambda: Pusher([]),
     ScanAssembler: lambda: ScanAssembler(
         ScanAssemblerParams(),
         beam_angles=np.zeros(3),
@@ -112,7 +145,8 @@ def documented_ports(system: type[LeafSystem]) -> dict[str, object]:
         r"^\.\. pydrake_system::\n\n((?: {4}.*\n|\n)+)", text + "\n", re.M
     )
     assert block, f"{system.__qualname__} has no pydrake_system block"
-    return yaml.safe_load(inspect.cleandoc(block.group(1)))
+    ports = {"input_ports": [], "output_ports": []}
+    return ports | yaml.safe_load(inspect.cleandoc(block.group(1)))
 
 
 @pytest.mark.parametrize("system", find_systems(), ids=lambda s: s.__qualname__)
