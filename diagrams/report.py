@@ -1,7 +1,6 @@
 """The figures of a run."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -10,14 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
-from pydrake.multibody.plant import AddMultibodyPlantSceneGraph
-from pydrake.systems.framework import DiagramBuilder
 
-from diagrams.evidence import STATE_SIGNAL, Limits, joint_velocities, robot_limits
 from diagrams.measures import LIFTED, contact_intervals, measured_zmp
-from diagrams.signals import Run, RunError, load_run
-from diagrams.true_motion import TrueMotion, true_motion
-from models.robot_loader import add_robot
+from diagrams.run_data import RunData, read_run_data
 from models.staircase import Tread
 from systems.ports import Vector
 from systems.values import FEET, Foot
@@ -32,27 +26,6 @@ SHOWN_JOINTS = 6
 """How many joints have a colour of their own; the others are grey."""
 
 
-@dataclass(frozen=True)
-class RunData:
-    """What the figures draw."""
-
-    run: Run
-    motion: TrueMotion
-    limits: Limits
-    velocities: Mapping[str, Vector]
-    treads: tuple[Tread, ...]
-    wrenches: Mapping[Foot, Vector] | None
-    """Each foot's contact wrench at `motion.time`, (n, 6)."""
-
-    def signal(self, name: str) -> pd.DataFrame | None:
-        """A vector signal, where it was logged."""
-        return self.run.signals.get(name)
-
-    def first_signal(self, *names: str) -> pd.DataFrame | None:
-        """The first of these signals that was logged."""
-        return next((self.run.signals[n] for n in names if n in self.run.signals), None)
-
-
 def plot_run(folder: Path) -> list[Path]:
     """Draws the figures of a run into its folder `figures`; gives their paths.
 
@@ -65,7 +38,7 @@ def plot_run(folder: Path) -> list[Path]:
         RunError: the folder holds no run, or one without the plant's state.
         ScenarioError: its scenario cannot be read.
     """
-    data = _read(load_run(folder))
+    data = read_run_data(folder)
     figures: dict[str, Callable[[RunData], Figure]] = {
         "top_view": top_view,
         "joints": joints_figure,
@@ -85,32 +58,6 @@ def plot_run(folder: Path) -> list[Path]:
         canvas.print_png(str(partial))  # type: ignore[no-untyped-call]
         paths.append(partial.replace(path))
     return paths
-
-
-def _read(run: Run) -> RunData:
-    if STATE_SIGNAL not in run.signals:
-        raise RunError(f"{run.folder}: the run did not log {STATE_SIGNAL}")
-    samples = run.signals[STATE_SIGNAL].to_numpy(dtype=np.float64)
-    time, state = samples[:, 0], samples[:, 1:]
-    robot = run.scenario.robot.model()
-    plant, scene_graph = AddMultibodyPlantSceneGraph(DiagramBuilder(), time_step=0.0)
-    instance = add_robot(plant, scene_graph, robot)
-    plant.Finalize()
-    wrenches: dict[Foot, Vector] | None = None
-    if "station.foot_wrenches" in run.signals:
-        logged = run.signals["station.foot_wrenches"].to_numpy(dtype=np.float64)
-        both = np.stack(
-            [np.interp(time, logged[:, 0], column) for column in logged[:, 1:13].T], 1
-        )
-        wrenches = {"left": both[:, :6], "right": both[:, 6:]}
-    return RunData(
-        run=run,
-        motion=true_motion(plant, instance, robot, time, state),
-        limits=robot_limits(plant, instance),
-        velocities=joint_velocities(plant, instance, state),
-        treads=run.scenario.scene.treads(),
-        wrenches=wrenches,
-    )
 
 
 def balance_figure(data: RunData) -> Figure:
