@@ -1,7 +1,6 @@
 """The chain from cloud to treads, on synthetic sweeps and on real data."""
 
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -92,15 +91,34 @@ def test_staircase_from_a_tread(
     )
     eye = scene.sensor(stands_on)
     found, _ = segment_planes(scan(scene, eye), GRAVITY, PARAMS, eye)
-    treads = found.staircase.treads
-    ahead = [
-        t for t in treads if t.X_WR.translation()[2] > scene.rise * stands_on + 0.2
-    ]
-    seen = PlaneSegmentation(
-        planes=found.planes, staircase=replace(found.staircase, treads=tuple(ahead))
+    check_treads(found, scene, list(range(stands_on + 1, 4)))
+
+
+def test_strip_of_floor_is_no_tread(scan: Scan, stair_scene: Any) -> None:
+    """A corridor's floor of which only a tread's depth is seen is the floor."""
+    scene = stair_scene(rise=0.17, run=0.30, width=1.0, walls=True)
+    eye = scene.sensor()
+    cloud = scan(scene, eye)
+    found, _ = segment_planes(cloud[cloud[:, 0] > -0.31], GRAVITY, PARAMS, eye)
+    check_treads(found, scene, [0, 1, 2])
+    assert found.staircase.floor is not None
+    assert abs(found.staircase.floor.X_WR.translation()[2]) < 0.003
+
+
+@pytest.mark.parametrize("with_viewpoint", [False, True])
+@pytest.mark.parametrize("open_risers", [False, True])
+def test_tread_that_the_view_cuts_off_waits(
+    open_risers: bool, with_viewpoint: bool, scan: Scan, stair_scene: Any
+) -> None:
+    """Of the fourth tread two thirds are seen: its depth is unknown, so it is out."""
+    scene = stair_scene(
+        steps=4, rise=0.13, run=0.30, width=0.7, open_risers=open_risers
     )
-    check_treads(seen, scene, list(range(stands_on + 1, 4)))
-    assert len(treads) - len(ahead) <= 1
+    eye = scene.sensor()
+    found, _ = segment_planes(
+        scan(scene, eye), GRAVITY, PARAMS, eye if with_viewpoint else None
+    )
+    check_treads(found, scene, [0, 1, 2])
 
 
 def test_hidden_parts_do_not_move_the_edges(scan: Scan, stair_scene: Any) -> None:

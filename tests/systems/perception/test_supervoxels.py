@@ -88,6 +88,21 @@ def test_normals_keep_supervoxels_apart() -> None:
     assert strays <= 0.1 * len(p)
 
 
+def test_a_voxel_between_two_goes_to_the_nearer_in_d() -> None:
+    """Reached by two supervoxels at once it goes where its normal fits (Eq. 1)."""
+    x = np.array([0.01, 0.03, 0.05, 0.07, 0.09, 0.11, 0.13])
+    points = np.column_stack([x, np.full(7, 0.05), np.full(7, 0.05)])
+    tilted = np.array([np.sin(0.5), 0.0, np.cos(0.5)])
+    pairs = np.column_stack([np.arange(6), np.arange(1, 7)])
+    for first_tilted in (4, 5):
+        normals = np.where((np.arange(7) >= first_tilted)[:, None], tilted, UP)
+        found = cluster_supervoxels(
+            points, normals, pairs, seed_resolution=0.1, influence=0.2
+        )
+        wanted = (np.arange(7) >= first_tilted).astype(int)
+        np.testing.assert_array_equal(found.labels, wanted)
+
+
 def test_a_step_is_not_merged() -> None:
     """Sheets that touch in plan but lie 10 cm apart are two clusters, one sheet one."""
     points = np.concatenate([sheet(0.0, 0.01), sheet(0.6, 0.11)])
