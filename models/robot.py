@@ -65,6 +65,9 @@ class RobotModel:
     waist_joints: tuple[str, ...]
     posture: Mapping[str, float]
     """Standing posture with bent knees, rad; joints that are not named are at zero."""
+    working_range: Mapping[str, tuple[float, float]]
+    """Positions that are planned within, rad, where the joint's limits allow more: a
+    knee that never straightens stays away from the leg's singularity."""
     gains: Mapping[str, JointGains]
     """Servo of each joint by name."""
     lidar_position: tuple[float, float, float]

@@ -34,7 +34,16 @@ from models.robot import RobotModel
 from systems.ports import Vector
 from systems.values import FEET
 
-CACHE_VERSION = "1"
+CACHE_VERSION = "2"
+_Z_UP_TO_Y_UP = np.array(
+    [
+        [1.0, 0.0, 0.0, 0.0],
+        [0.0, 0.0, 1.0, 0.0],
+        [0.0, -1.0, 0.0, 0.0],
+        [0.0, 0.0, 0.0, 1.0],
+    ]
+)
+"""glTF's y points up; readers turn it back."""
 SOLE_PREFIX = "sole"
 """What the names of the sole's contact geometries begin with."""
 SPHERE_RADIUS = 0.005
@@ -209,7 +218,9 @@ def _cache_folder(robot: RobotModel) -> Path:
 def _convert(
     robot: RobotModel, name: str, visual: ET.Element, visual_file: Path, hull_file: Path
 ) -> None:
-    files = export_gltf(trimesh.load_scene(_source(robot, visual)), embed_buffers=True)  # type: ignore[no-untyped-call]
+    scene = trimesh.load_scene(_source(robot, visual))
+    scene.apply_transform(_Z_UP_TO_Y_UP)
+    files = export_gltf(scene, embed_buffers=True)  # type: ignore[no-untyped-call]
     _write_atomically(visual_file, files["model.gltf"])
     mesh = _load(robot, visual)
     mesh.apply_transform(_origin(visual))

@@ -119,8 +119,8 @@ class Executive(LeafSystem):
         output_ports:
         - motion_plan
         - footstep_plan
-        - scan
         - status
+        - scan
 
     - `sweep`: number of sweeps that perception has worked in, (1,).
     - `footstep_plan` (input): footsteps on what is known now, abstract FootstepPlan;

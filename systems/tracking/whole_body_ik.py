@@ -40,7 +40,7 @@ class IkParams:
     """w_ref of joints above the legs (the paper's 0.001, per its gain)."""
     leg_weight: float = 1e-6
     """The same for the legs, which the tasks determine but at singularities."""
-    damping: float = 1e-7
+    damping: float = 1e-5
     """Weight of every velocity; keeps near-straight knees tame."""
     gain: float = 20.0
     """K: task and limit errors decay with this rate, 1/s."""
@@ -133,6 +133,10 @@ class WholeBodyIk:
         nv = plant.num_velocities()
         self._lower = plant.GetPositionLowerLimits()[7:] + params.position_margin
         self._upper = plant.GetPositionUpperLimits()[7:] - params.position_margin
+        for name, (least, most) in robot.working_range.items():
+            row = plant.GetJointByName(name).position_start() - 7
+            self._lower[row] = max(self._lower[row], least)
+            self._upper[row] = min(self._upper[row], most)
         self._speed = params.speed_share * plant.GetVelocityUpperLimits()[6:]
         self._posture_weight = np.full(nv, params.posture_weight)
         self._posture_weight[:6] = 0.0
