@@ -10,14 +10,17 @@ from systems.ports import eval_vector
 
 
 class _Scratch:
-    """A plant's context; a clone of the System's context gets one of its own."""
+    """A plant's context; a clone of the System's context gets a clone of it.
 
-    def __init__(self, plant: MultibodyPlant) -> None:
-        self._plant = plant
-        self.context = plant.CreateDefaultContext()
+    A clone at the default state would not do: the System's cache entries are copied
+    together with the mark that they are up to date.
+    """
+
+    def __init__(self, context: Context) -> None:
+        self.context = context
 
     def __deepcopy__(self, memo: dict[int, object]) -> "_Scratch":
-        return _Scratch(self._plant)
+        return _Scratch(self.context.Clone())
 
 
 def declare_scratch_context(
@@ -35,7 +38,7 @@ def declare_scratch_context(
     entry = system.DeclareCacheEntry(
         "scratch plant context",
         ValueProducer(
-            allocate=lambda: Value[object](_Scratch(plant)),
+            allocate=lambda: Value[object](_Scratch(plant.CreateDefaultContext())),
             calc=ValueProducer.NoopCalc,  # type: ignore[arg-type]
         ),
         {system.nothing_ticket()},
@@ -73,7 +76,10 @@ def declare_state_context(
 
     entry = system.DeclareCacheEntry(
         "plant context at the input's state",
-        ValueProducer(allocate=lambda: Value[object](_Scratch(plant)), calc=calc),
+        ValueProducer(
+            allocate=lambda: Value[object](_Scratch(plant.CreateDefaultContext())),
+            calc=calc,
+        ),
         {state.ticket()},
     )
 
