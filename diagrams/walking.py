@@ -20,7 +20,7 @@ from systems.tracking.ik_tracker import IkTracker
 from systems.tracking.whole_body_feedforward import WholeBodyFeedforward
 from systems.tracking.whole_body_ik import IkTarget, WholeBodyIk, solve_posture
 
-LARGEST_ACCELERATION = 50.0
+LARGEST_ACCELERATION = 150.0
 """Joint accelerations of the reference are clamped to this, rad/s^2."""
 
 
