@@ -31,6 +31,10 @@ from systems.balance.static_stability import StaticStability
 from systems.balance.zmp_preview import ZmpPreviewParams
 from systems.balance.zmp_preview_controller import ZmpPreviewController
 from systems.disturbance.pusher import Pusher
+from systems.perception.depth_cloud import DepthCloud, DepthCloudParams
+from systems.perception.environment_exchange import EnvironmentExchange
+from systems.perception.floor_extractor import FloorExtractor
+from systems.perception.obstacle_clusterer import ObstacleClusterer
 from systems.perception.plane_segmenter import PlaneSegmenter
 from systems.perception.scan_assembler import ScanAssembler, ScanAssemblerParams
 from systems.perception.staircase_map import StaircaseMap
@@ -40,7 +44,10 @@ from systems.planning.footstep_planner import FootstepPlanner
 from systems.planning.motion_params import MotionPlannerParams
 from systems.planning.motion_planner import MotionPlanner
 from systems.planning.motion_player import MotionPlayer
+from systems.planning.path_footstep_planner import PathFootstepPlanner
+from systems.planning.path_planner import PathPlanner
 from systems.sensing.contact_monitor import ContactMonitor, WatchedGeometry
+from systems.sensing.depth_camera import DepthCamera, DepthCameraParams
 from systems.sensing.foot_wrench_sensor import FootWrenchSensor
 from systems.sensing.kinematic_state import KinematicState
 from systems.sensing.tilting_lidar import TiltingLidar, TiltingLidarParams
@@ -89,6 +96,10 @@ FACTORIES: dict[type[LeafSystem], Callable[[], LeafSystem]] = {
     ComReference: ComReference,
     ContactMonitor: lambda: ContactMonitor(WatchedGeometry((), (), {}, {}), 0.002),
     Executive: lambda: Executive(ExecutiveParams(), standing_plan()),
+    DepthCamera: lambda: DepthCamera(DepthCameraParams(), scene=triangle_mesh([])),
+    DepthCloud: lambda: DepthCloud(DepthCloudParams()),
+    EnvironmentExchange: EnvironmentExchange,
+    FloorExtractor: FloorExtractor,
     FootWrenchSensor: lambda: FootWrenchSensor(*robot_alone(), JVRC1),
     FootstepPlanner: lambda: FootstepPlanner(FootstepPlannerParams(), JVRC1.sole),
     IkTracker: lambda: IkTracker(
@@ -100,6 +111,11 @@ FACTORIES: dict[type[LeafSystem], Callable[[], LeafSystem]] = {
         MotionPlannerParams(), ZmpPreviewParams(), JVRC1
     ),
     MotionPlayer: lambda: MotionPlayer(320),
+    ObstacleClusterer: ObstacleClusterer,
+    PathFootstepPlanner: lambda: PathFootstepPlanner(
+        FootstepPlannerParams(), JVRC1.sole
+    ),
+    PathPlanner: PathPlanner,
     PlaneSegmenter: PlaneSegmenter,
     Pusher: lambda: Pusher([]),
     ScanAssembler: lambda: ScanAssembler(

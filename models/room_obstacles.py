@@ -1,0 +1,107 @@
+"""Boxes placed at random in a room: clutter to walk through."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from models.obstacle import BoxParams
+from models.validation import require_at_least, require_positive
+from systems.ports import Vector
+
+TRIES = 2000
+"""Places that are tried before a room counts as full."""
+
+
+@dataclass(kw_only=True)
+class ClutterParams:
+    """How many boxes stand where, and how large they are."""
+
+    least_count: int = 6
+    """Fewest boxes."""
+    most_count: int = 10
+    """Most boxes."""
+    area: list[float] = field(default_factory=lambda: [-1.7, 1.7, -1.9, 1.9])
+    """Where their centres lie: least x, largest x, least y, largest y in W, m."""
+    least_side: float = 0.20
+    """Shortest side, m."""
+    most_side: float = 0.50
+    """Longest side, m."""
+    most_height: float = 0.80
+    """Tallest box, m; the lowest one is `least_side` high."""
+    gap: float = 0.12
+    """Least distance between the circles around two boxes, m: twice the gap at which
+    perception tells them apart."""
+    keep_clear: float = 0.55
+    """Least distance of a box from the places that are kept clear, m: the robot's
+    footprint with its margin, and some."""
+    seed: int = 0
+    """Of places and sizes."""
+
+    def validate(self) -> None:
+        """Checks every field.
+
+        Raises:
+            ValueError: "field: reason, got x" for the first field that is wrong.
+        """
+        require_at_least("least_count", self.least_count, 0)
+        require_at_least("most_count", self.most_count, self.least_count)
+        if len(self.area) != 4 or not (
+            self.area[0] <= self.area[1] and self.area[2] <= self.area[3]
+        ):
+            raise ValueError(
+                f"area: must be least x, largest x, least y, largest y, got {self.area}"
+            )
+        require_positive("least_side", self.least_side, "m")
+        require_at_least("most_side", self.most_side, self.least_side, "m")
+        require_at_least("most_height", self.most_height, self.least_side, "m")
+        require_at_least("gap", self.gap, 0.0, "m")
+        require_at_least("keep_clear", self.keep_clear, 0.0, "m")
+        require_at_least("seed", self.seed, 0)
+
+
+def place_boxes(params: ClutterParams, clear: Vector) -> list[BoxParams]:
+    """Boxes at random places that do not touch.
+
+    Args:
+        params: how many, where and how large.
+        clear: places that are kept clear, (n, 2), m: start and goal.
+
+    Returns:
+        The boxes, named "clutter_0" and so on; the same for the same seed.
+
+    Raises:
+        ValueError: a parameter is wrong, or there is no room for so many.
+    """
+    params.validate()
+    rng = np.random.default_rng(params.seed)
+    wanted = int(rng.integers(params.least_count, params.most_count + 1))
+    boxes: list[BoxParams] = []
+    low = np.array([params.area[0], params.area[2]])
+    high = np.array([params.area[1], params.area[3]])
+    for _ in range(TRIES):
+        if len(boxes) == wanted:
+            break
+        sides = rng.uniform(params.least_side, params.most_side, 2)
+        height = rng.uniform(params.least_side, params.most_height)
+        p, yaw = rng.uniform(low, high), rng.uniform(-np.pi, np.pi)
+        radius = float(np.linalg.norm(sides)) / 2.0
+        apart = all(
+            np.hypot(box.x - p[0], box.y - p[1])
+            > radius + np.hypot(*box.size[:2]) / 2.0 + params.gap
+            for box in boxes
+        )
+        away = np.linalg.norm(clear - p, axis=1)
+        free = bool(np.all(away > radius + params.keep_clear))
+        if apart and free:
+            boxes.append(
+                BoxParams(
+                    name=f"clutter_{len(boxes)}",
+                    x=float(p[0]),
+                    y=float(p[1]),
+                    yaw=float(yaw),
+                    size=[float(sides[0]), float(sides[1]), float(height)],
+                )
+            )
+    if len(boxes) == wanted:
+        return boxes
+    raise ValueError(f"most_count: no room for {wanted} boxes in {params.area} m")

@@ -1,0 +1,263 @@
+"""A depth camera in the room's upper part."""
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from pydrake.common.value import AbstractValue
+from pydrake.math import RigidTransform
+from pydrake.systems.framework import BasicVector, Context, LeafSystem, State
+
+from models.solids import TriangleMesh
+from models.validation import (
+    require_at_least,
+    require_finite,
+    require_length,
+    require_positive,
+)
+from systems.ports import Vector, eval_abstract, set_vector
+from systems.room_values import DepthImage
+from systems.sensing.pinhole import looking_at, pixel_rays, pixels_of_sphere
+from systems.sensing.ray_caster import Beams, BodyMesh, RayCaster
+from systems.timing import timed
+from systems.values import Value
+
+NEAR = 0.5
+"""Depth at which the noise is `noise_near`, m (room paper, Sec. 2.1)."""
+
+
+@dataclass(kw_only=True)
+class DepthCameraParams:
+    """An RGB-D camera's depth, fixed in the room (room paper, Sec. 2.1)."""
+
+    columns: int = 640
+    """Width of the picture, pixels (paper: VGA)."""
+    rows: int = 480
+    """Height of the picture, pixels (paper: VGA)."""
+    field_of_view_deg: float = 90.0
+    """Horizontal field of view, deg. The paper's Xtion has 58 deg, which from under a
+    ceiling of 3 m sees 3.2 m of floor; a walk of 5 m takes a wider lens."""
+    period: float = 1.0 / 30.0
+    """Time between frames, s (paper: 25 to 30 Hz)."""
+    min_range: float = 0.5
+    """Least depth that is measured, m."""
+    max_range: float = 5.0
+    """Greatest depth that is measured, m; where the noise is `noise_far`."""
+    noise_near: float = 0.002
+    """Standard deviation of a depth at 0.5 m, m (paper: a few millimetres)."""
+    noise_far: float = 0.04
+    """Standard deviation of a depth at `max_range`, m (paper: about 4 cm); it grows
+    with the square of the depth (Khoshelham and Elberink 2012)."""
+    position: list[float] = field(default_factory=lambda: [0.0, -0.8, 2.9])
+    """Where the camera is in W, m: under the ceiling of a 3 m room."""
+    target: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
+    """The point in W in the middle of the picture, m; the picture is upright, so its
+    width runs across the line from here to the target."""
+    seed: int = 0
+    """Seed of the noise."""
+
+    def validate(self) -> None:
+        """Checks every field.
+
+        Raises:
+            ValueError: "field: reason, got x" for the first field that is wrong.
+        """
+        require_at_least("columns", self.columns, 1, "pixels")
+        require_at_least("rows", self.rows, 1, "pixels")
+        require_positive("field_of_view_deg", self.field_of_view_deg, "deg")
+        if not self.field_of_view_deg < 170.0:
+            raise ValueError(
+                f"field_of_view_deg: must be less than 170 deg for a pinhole, "
+                f"got {self.field_of_view_deg:g} deg"
+            )
+        require_positive("period", self.period, "s")
+        require_at_least("min_range", self.min_range, 0.0, "m")
+        if not max(self.min_range, NEAR) < self.max_range < math.inf:
+            raise ValueError(
+                f"max_range: must be finite, exceed min_range and {NEAR:g} m, "
+                f"got {self.max_range:g} m"
+            )
+        require_at_least("noise_near", self.noise_near, 0.0, "m")
+        require_at_least("noise_far", self.noise_far, self.noise_near, "m")
+        for item in ("position", "target"):
+            value = getattr(self, item)
+            require_length(item, value, 3)
+            for index, coordinate in enumerate(value):
+                require_finite(f"{item}[{index}]", coordinate, "m")
+        if self.position == self.target:
+            raise ValueError(f"target: must differ from position, got {self.target} m")
+        require_at_least("seed", self.seed, 0)
+
+    @property
+    def focal_length(self) -> float:
+        """Pixels."""
+        half = math.radians(self.field_of_view_deg) / 2.0
+        return self.columns / 2.0 / math.tan(half)
+
+    def X_WC(self) -> RigidTransform:
+        """Pose of the camera."""
+        return looking_at(np.array(self.position), np.array(self.target))
+
+
+def depth_noise(depth: Vector, params: DepthCameraParams) -> Vector:
+    """Standard deviation of depths (...), m: a + b z^2 through both ends of the range.
+
+    Khoshelham and Elberink (2012), Eq. 11, whose deviation is proportional to the
+    squared depth, over a floor of what the sensor resolves near by.
+    """
+    near, far = params.noise_near, params.noise_far
+    growth = (far - near) / (params.max_range**2 - NEAR**2)
+    return np.maximum(near + growth * (depth**2 - NEAR**2), 0.0)
+
+
+def measure_depth(depth: Vector, frame: int, params: DepthCameraParams) -> Vector:
+    """What the camera reports of true depths.
+
+    Args:
+        depth: true depths, (n,), m; inf where there is nothing.
+        frame: how many frames were taken before; with the seed it fixes the noise.
+        params: noise and limits.
+
+    Returns:
+        Depths, (n,), m; nan below the least, inf beyond the greatest.
+    """
+    generator = np.random.default_rng((params.seed, frame))
+    noise = generator.standard_normal(len(depth), dtype=np.float32)
+    seen = depth <= 2.0 * params.max_range
+    measured: Vector = np.full(len(depth), np.inf)
+    measured[seen] = depth[seen] + depth_noise(depth[seen], params) * noise[seen]
+    measured[measured < params.min_range] = np.nan
+    measured[measured > params.max_range] = np.inf
+    return measured
+
+
+@dataclass(frozen=True, eq=False)
+class _Shutter(Value):
+    """What the latest frame is of; the picture follows from it when someone looks."""
+
+    time: float = -math.inf
+    """When it was taken, s."""
+    frames: int = 0
+    """How many were taken."""
+    body_poses: tuple[RigidTransform, ...] = ()
+    """X_WB of every body then."""
+
+
+class DepthCamera(LeafSystem):
+    """Takes a depth image of the scene and the bodies every period.
+
+    What is kept of a frame is where the bodies were; the rays are cast when the image
+    is asked for, so frames at which no one looks cost nothing.
+
+    .. pydrake_system::
+
+        name: DepthCamera
+        input_ports:
+        - body_poses
+        output_ports:
+        - depth_image
+        - frame_body_poses
+        - frame
+
+    - `body_poses`: X_WB of every body, list[RigidTransform], as MultibodyPlant has it.
+    - `depth_image`: the latest frame, DepthImage; before the first its time is -inf
+      and it has no pixels.
+    - `frame_body_poses`: X_WB of every body when that was taken, list[RigidTransform].
+    - `frame`: how many frames were taken, (1,), no unit.
+    """
+
+    def __init__(
+        self,
+        params: DepthCameraParams,
+        *,
+        scene: TriangleMesh,
+        body_meshes: Sequence[BodyMesh] = (),
+    ) -> None:
+        """Declares ports and the frame period; builds the trees to cast on.
+
+        Args:
+            params: lens, noise, pose and period.
+            scene: what does not move, in W.
+            body_meshes: what moves: the robot, obstacles.
+
+        Raises:
+            ValueError: a parameter is wrong.
+        """
+        super().__init__()
+        params.validate()
+        self._params = params
+        self._X_WC = params.X_WC()
+        self._rays = pixel_rays(params.rows, params.columns, params.focal_length)
+        self._caster = RayCaster(scene, body_meshes)
+        self._body_poses = self.DeclareAbstractInputPort(
+            "body_poses", AbstractValue.Make([RigidTransform()])
+        )
+        self._state = self.DeclareAbstractState(AbstractValue.Make(_Shutter()))
+        ticket = {self.abstract_state_ticket(self._state)}
+        calc_image: Callable[..., None] = timed(self, self._calc_depth_image)
+        calc_poses: Callable[..., None] = timed(self, self._calc_frame_body_poses)
+        self.DeclareAbstractOutputPort(
+            "depth_image",
+            lambda: AbstractValue.Make(self._no_image()),
+            calc_image,
+            prerequisites_of_calc=ticket,
+        )
+        self.DeclareAbstractOutputPort(
+            "frame_body_poses",
+            lambda: AbstractValue.Make([RigidTransform()]),
+            calc_poses,
+            prerequisites_of_calc=ticket,
+        )
+        self.DeclareVectorOutputPort(
+            "frame", 1, timed(self, self._calc_frame), prerequisites_of_calc=ticket
+        )
+        self.DeclarePeriodicUnrestrictedUpdateEvent(
+            params.period, 0.0, timed(self, self._update)
+        )
+
+    def _update(self, context: Context, state: State) -> None:
+        body_poses = eval_abstract(self._body_poses, context, list)
+        # Copied, since Drake reuses the list that the port holds.
+        poses = tuple(RigidTransform(pose) for pose in body_poses)
+        shutter = _Shutter(context.get_time(), self._get(context).frames + 1, poses)
+        state.get_mutable_abstract_state(int(self._state)).set_value(shutter)
+
+    def _get(self, context: Context) -> _Shutter:
+        state: Any = context.get_abstract_state(int(self._state))
+        shutter = state.get_value()
+        assert isinstance(shutter, _Shutter)
+        return shutter
+
+    def _no_image(self) -> DepthImage:
+        nothing: Vector = np.zeros((0, 0))
+        focal_length = self._params.focal_length
+        return DepthImage(-math.inf, self._X_WC, focal_length, nothing)
+
+    def _calc_depth_image(self, context: Context, image: AbstractValue) -> None:
+        shutter, params = self._get(context), self._params
+        if not shutter.frames:
+            image.set_value(self._no_image())
+            return
+
+        def in_sphere(p_CS: Vector, radius: float) -> Iterable[Beams]:
+            shape = (params.rows, params.columns, params.focal_length)
+            pixels = pixels_of_sphere(p_CS, radius, *shape)
+            return (pixels,) if len(pixels) else ()
+
+        # The rays have z = 1, so distances in units of their lengths are depths.
+        depth = self._caster.cast_beams(
+            self._X_WC, self._rays, shutter.body_poses, in_sphere, threads=0
+        )
+        measured = measure_depth(depth, shutter.frames - 1, params)
+        picture: Vector = measured.reshape(params.rows, params.columns)
+        image.set_value(
+            DepthImage(shutter.time, self._X_WC, params.focal_length, picture)
+        )
+
+    def _calc_frame_body_poses(self, context: Context, poses: AbstractValue) -> None:
+        poses.set_value(list(self._get(context).body_poses))
+
+    def _calc_frame(self, context: Context, frame: BasicVector) -> None:
+        set_vector(frame, np.array([self._get(context).frames], dtype=np.float64))
