@@ -125,21 +125,14 @@ def add_station(
         plant.get_body_poses_output_port(), wrench_sensor.GetInputPort("body_poses")
     )
 
-    pusher = add_system(
-        builder,
-        "pusher",
-        Pusher(
-            [
-                Push(
-                    plant.GetBodyByName(push.body, instance).index(),
-                    push.time,
-                    push.duration,
-                    np.array(push.force),
-                )
-                for push in scenario.task.pushes
-            ]
-        ),
-    )
+    pushes = []
+    for push in scenario.task.pushes:
+        body = plant.GetBodyByName(push.body, instance)
+        force: Vector = np.array(push.force)
+        pushes.append(
+            Push(body.index(), push.time, push.duration, force, body.default_com())
+        )
+    pusher = add_system(builder, "pusher", Pusher(pushes))
     builder.Connect(
         pusher.GetOutputPort("spatial_forces"),
         plant.get_applied_spatial_force_input_port(),
@@ -198,7 +191,7 @@ def add_lidar(
             own_boxes=[box_around(mesh.body_index, mesh.vertices) for mesh in meshes],
         ),
     )
-    body_poses = plant.get_body_poses_output_port()
+    body_poses = plant.get_body_poses_output_port()  # type: ignore[no-untyped-call]
     builder.Connect(body_poses, lidar.GetInputPort("body_poses"))
     builder.Connect(body_poses, assembler.GetInputPort("body_poses"))
     for port in ("scan", "sweep"):

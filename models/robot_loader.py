@@ -219,7 +219,7 @@ def _convert(
     robot: RobotModel, name: str, visual: ET.Element, visual_file: Path, hull_file: Path
 ) -> None:
     scene = trimesh.load_scene(_source(robot, visual))
-    scene.apply_transform(_Z_UP_TO_Y_UP)
+    scene.apply_transform(_Z_UP_TO_Y_UP)  # type: ignore[no-untyped-call]
     files = export_gltf(scene, embed_buffers=True)  # type: ignore[no-untyped-call]
     _write_atomically(visual_file, files["model.gltf"])
     mesh = _load(robot, visual)

@@ -24,7 +24,9 @@ class Push:
     duration: float
     """How long it lasts, s."""
     force: Vector
-    """In W, at the body's origin, (3,), N."""
+    """In W, (3,), N."""
+    p_BQ: Vector
+    """Where it acts, in the body's frame, (3,), m."""
 
 
 class Pusher(LeafSystem):
@@ -66,7 +68,7 @@ class Pusher(LeafSystem):
             if push.time <= now < push.time + push.duration:
                 force = ExternallyAppliedSpatialForce()
                 force.body_index = push.body
-                force.p_BoBq_B = nothing
+                force.p_BoBq_B = push.p_BQ
                 force.F_Bq_W = SpatialForce(tau=nothing, f=push.force)
                 forces.append(force)
         output.set_value(forces)
