@@ -90,6 +90,7 @@ BAD: dict[str, tuple[Callable[[Path], object], str]] = {
     "bytes.xyz": (lambda path: path.write_bytes(b"\xff\xfe\x00\x80"), "is not text"),
     "nan.xyz": (say("nan nan nan\nnan 1 2\n"), "has no finite point"),
     "cut.pcd": (cut("binary.pcd", 0.9), "cut.pcd: "),
+    "cut ascii.pcd": (cut("ascii.pcd", 0.9), "is cut short"),
     "cut header.pcd": (cut("binary.pcd", 0.2), "is no .pcd file"),
     "cut.ply": (cut("binary.ply", 0.9), "cut.ply: "),
     "cut.npz": (cut("named.npz", 0.6), "is no .npz file"),
