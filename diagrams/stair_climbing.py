@@ -47,6 +47,9 @@ def build_stair_climbing(
     gravity = add_system(builder, "gravity", ConstantVectorSource(down))
     builder.Connect(assembler.GetOutputPort("cloud"), segmenter.GetInputPort("cloud"))
     builder.Connect(gravity.get_output_port(), segmenter.GetInputPort("gravity"))
+    builder.Connect(
+        lidar.GetOutputPort("viewpoint"), segmenter.GetInputPort("viewpoint")
+    )
 
     staircase = add_system(builder, "staircase_map", StaircaseMap(params.staircase_map))
     builder.Connect(
@@ -117,6 +120,7 @@ def build_stair_climbing(
         ("executive.status", executive.GetOutputPort("status")),
         ("executive.footstep_plan", executive.GetOutputPort("footstep_plan")),
         ("staircase_map.staircase", staircase.GetOutputPort("staircase")),
+        ("staircase_map.segmentation", staircase.GetOutputPort("segmentation")),
     ):
         recorder.add_value(name, port, VALUE_PERIOD)
 

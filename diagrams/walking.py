@@ -13,6 +13,7 @@ from models.robot import RobotModel
 from systems.balance.com_reference import ComReference
 from systems.balance.landing_adaptor import LandingAdaptor
 from systems.balance.stabilizer import Stabilizer
+from systems.balance.static_stability import StaticStability
 from systems.balance.zmp_preview_controller import ZmpPreviewController
 from systems.planning.motion_player import MotionPlayer
 from systems.ports import Vector
@@ -41,7 +42,7 @@ class Walking:
     """The walking controllers, wired to each other.
 
     Subsystems: `motion_player`, `zmp_preview`, `com_reference`, `landing_adaptor`,
-    `ik_tracker`, `feedforward`, `stabilizer`.
+    `ik_tracker`, `feedforward`, `stabilizer`, `static_stability`.
     """
 
     player: MotionPlayer
@@ -52,6 +53,7 @@ class Walking:
     tracker: IkTracker
     feedforward: WholeBodyFeedforward
     stabilizer: Stabilizer
+    stability: StaticStability
 
 
 def initial_stand(
@@ -185,6 +187,31 @@ def add_walking(
     builder.Connect(
         feedforward.GetOutputPort("torque"), station.torque.get_input_port()
     )
+
+    sole = robot.sole
+    stability = add_system(
+        builder,
+        "static_stability",
+        StaticStability(
+            sole.heel,
+            sole.toe,
+            sole.half_width,
+            params.stabilizer.distribution.friction,
+        ),
+    )
+    for source, port, target in (
+        (station.kinematics, "foot_poses", "sole_poses"),
+        (station.kinematics, "com", "com"),
+        (landing, "contacts", "contacts"),
+    ):
+        builder.Connect(source.GetOutputPort(port), stability.GetInputPort(target))
     return Walking(
-        player, preview, com_reference, landing, tracker, feedforward, stabilizer
+        player,
+        preview,
+        com_reference,
+        landing,
+        tracker,
+        feedforward,
+        stabilizer,
+        stability,
     )

@@ -126,6 +126,11 @@ def record_walking(
             ("1", "1", "m", "m"),
         )
     recorder.add_value(
+        "static_stability.polygon",
+        walking.stability.GetOutputPort("polygon"),
+        VALUE_PERIOD,
+    )
+    recorder.add_value(
         "contact_monitor.touches",
         station.contact_monitor.GetOutputPort("touches"),
         VALUE_PERIOD,

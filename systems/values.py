@@ -219,7 +219,7 @@ class MotionPlan(Value):
 
     @property
     def duration(self) -> float:
-        """s from the first row to the last."""
+        """From the first row to the last, s."""
         return (len(self.zmp) - 1) * self.period
 
 

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 from pydrake.common.value import AbstractValue
-from pydrake.math import RigidTransform, RollPitchYaw
+from pydrake.math import RigidTransform, RollPitchYaw, RotationMatrix
 from pydrake.systems.framework import BasicVector, Context, LeafSystem, State
 
 from systems.balance.contact_wrench_cone import Contact, sole_contact
@@ -15,13 +15,16 @@ from systems.ports import Vector, eval_abstract, eval_vector, set_vector
 from systems.timing import timed
 from systems.values import StancePolygon, Value
 
+LIFTED = 1e-6
+"""A sole that carries on this much less than its length has its heel lifted, m."""
+
 
 @dataclass(frozen=True, eq=False)
 class _Stance(Value):
     """The stance that the polygon belongs to."""
 
     sole_poses: Vector = field(default_factory=lambda: np.zeros(12))
-    in_contact: Vector = field(default_factory=lambda: np.full(2, np.nan))
+    contacts: Vector = field(default_factory=lambda: np.full(4, np.nan))
     others: tuple[Contact, ...] = ()
     polygon: StabilityPolygon = field(
         default_factory=lambda: StabilityPolygon(status="no_contact")
@@ -37,7 +40,7 @@ class StaticStability(LeafSystem):
         name: StaticStability
         input_ports:
         - sole_poses
-        - in_contact
+        - contacts
         - com
         - other_contacts
         output_ports:
@@ -47,7 +50,9 @@ class StaticStability(LeafSystem):
 
     - `sole_poses`: of the left and the right sole frame F in W, each x, y, z, m, then
       roll, pitch, yaw, rad, (12,).
-    - `in_contact`: whether the left and the right sole stand, above 0.5, (2,).
+    - `contacts`: whether the left and the right sole stand, above 0.5, then the length
+      of each that carries, from the toe edge back, (4,), -, -, m, m. A sole of which
+      only a part carries has its heel lifted; the ground under its toes is level.
     - `com`: p_WCom, (3,), m.
     - `other_contacts`: hands and the like, a tuple of `Contact`; none where it is not
       connected.
@@ -93,7 +98,7 @@ class StaticStability(LeafSystem):
         sole_contact(RigidTransform(), *self._sole)  # refuses a bad sole now
 
         self._sole_poses = self.DeclareVectorInputPort("sole_poses", 12)
-        self._in_contact = self.DeclareVectorInputPort("in_contact", 2)
+        self._contacts = self.DeclareVectorInputPort("contacts", 4)
         self._com = self.DeclareVectorInputPort("com", 3)
         self._other_contacts = self.DeclareAbstractInputPort(
             "other_contacts", AbstractValue.Make(())
@@ -148,27 +153,41 @@ class StaticStability(LeafSystem):
     def _update(self, context: Context, state: State) -> None:
         held = self._held(context)
         poses = eval_vector(self._sole_poses, context)
-        in_contact = (eval_vector(self._in_contact, context) > 0.5).astype(np.float64)
+        contacts = eval_vector(self._contacts, context)
+        contacts[:2] = contacts[:2] > 0.5
         others: tuple[Contact, ...] = ()
         if self._other_contacts.HasValue(context):
             others = eval_abstract(self._other_contacts, context, tuple)
-        standing = np.repeat(in_contact > 0.5, 6)
+        standing = np.repeat(contacts[:2] > 0.5, 6)
         if (
-            np.array_equal(in_contact, held.in_contact)
+            np.array_equal(contacts, held.contacts)
             and others == held.others
             and np.abs(_moved(poses, held.sole_poses)[standing]).max(initial=0.0)
             <= self._tolerance
         ):
             return
         soles = [
-            sole_contact(_pose(pose), *self._sole)
-            for pose, stands in zip(poses.reshape(2, 6), in_contact, strict=True)
+            self._contact(pose, length)
+            for pose, stands, length in zip(
+                poses.reshape(2, 6), contacts[:2], contacts[2:], strict=True
+            )
             if stands
         ]
         polygon = static_polygon([*soles, *others])
         state.get_mutable_abstract_state(int(self._stance)).set_value(
-            _Stance(poses, in_contact, others, polygon, held.caught + polygon.caught)
+            _Stance(poses, contacts, others, polygon, held.caught + polygon.caught)
         )
+
+    def _contact(self, pose: Vector, length: float) -> Contact:
+        """The part of a sole that carries."""
+        heel, toe, half_width, friction = self._sole
+        X_WF = _pose(pose)
+        if length >= heel + toe - LIFTED:
+            return sole_contact(X_WF, heel, toe, half_width, friction)
+        p_FE: Vector = np.array([toe, 0.0, 0.0])
+        p_WE: Vector = np.asarray(X_WF.multiply(p_FE))
+        X_WE = RigidTransform(RotationMatrix.MakeZRotation(pose[5]), p_WE)
+        return sole_contact(X_WE, length, 0.0, half_width, friction)
 
 
 def _pose(pose: Vector) -> RigidTransform:

@@ -21,9 +21,10 @@ from systems.values import PlaneSegmentation, Staircase, Value
 
 @dataclass(frozen=True, eq=False)
 class _Merged(Value):
-    """The state: the staircase and how many sweeps are in it."""
+    """The state: the staircase, how many sweeps are in it, and the last of them."""
 
     staircase: Staircase = field(default_factory=Staircase)
+    segmentation: PlaneSegmentation = field(default_factory=PlaneSegmentation)
     sweeps: int = 0
 
 
@@ -41,11 +42,13 @@ class StaircaseMap(LeafSystem):
         - sweep
         output_ports:
         - staircase
+        - segmentation
         - sweep
 
-    - `segmentation`: PlaneSegmentation of the last finished sweep, in W.
+    - `segmentation` (input): PlaneSegmentation of the last finished sweep, in W.
     - `sweep` (input): how many sweeps are finished, (1,).
     - `staircase`: Staircase, what all merged sweeps say, in W.
+    - `segmentation` (output): the one that was merged last; costs nothing to look at.
     - `sweep` (output): how many sweeps were finished when it was last merged, (1,).
     """
 
@@ -73,6 +76,12 @@ class StaircaseMap(LeafSystem):
             timed(self, self._calc_staircase),  # type: ignore[arg-type]
             prerequisites_of_calc=ticket,
         )
+        self.DeclareAbstractOutputPort(
+            "segmentation",
+            lambda: AbstractValue.Make(PlaneSegmentation()),
+            timed(self, self._calc_segmentation),  # type: ignore[arg-type]
+            prerequisites_of_calc=ticket,
+        )
         self.DeclareVectorOutputPort(
             "sweep",
             1,
@@ -91,7 +100,8 @@ class StaircaseMap(LeafSystem):
         if not sweeps > was.sweeps:
             return EventStatus.DidNothing()
         seen = eval_abstract(self._segmentation, context, PlaneSegmentation)
-        now = _Merged(merge_staircase(was.staircase, seen, self._params), sweeps)
+        known = merge_staircase(was.staircase, seen, self._params)
+        now = _Merged(known, seen, sweeps)
         state.get_mutable_abstract_state(int(self._state)).set_value(now)
         return EventStatus.Succeeded()
 
@@ -100,6 +110,9 @@ class StaircaseMap(LeafSystem):
         merged = held.get_value()
         assert isinstance(merged, _Merged)
         return merged
+
+    def _calc_segmentation(self, context: Context, output: AbstractValue) -> None:
+        output.set_value(self._get(context).segmentation)
 
     def _calc_staircase(self, context: Context, staircase: AbstractValue) -> None:
         staircase.set_value(self._get(context).staircase)

@@ -153,6 +153,7 @@ class TiltingLidar(LeafSystem):
         - scan
         - tilt
         - sweep
+        - viewpoint
 
     - `body_poses`: X_WB of every body, list[RigidTransform], as MultibodyPlant has it.
     - `enable`: above 0.5 asks for a sweep, (1,), no unit.
@@ -160,6 +161,7 @@ class TiltingLidar(LeafSystem):
       ranges are empty.
     - `tilt`: angle of the servo, (1,), rad.
     - `sweep`: how many sweeps are finished, (1,), no unit; grows with the last line.
+    - `viewpoint`: where the scanner is now, p_WL, (3,), m.
     """
 
     def __init__(
@@ -212,6 +214,12 @@ class TiltingLidar(LeafSystem):
         self.DeclareVectorOutputPort(
             "sweep", 1, timed(self, self._calc_sweep), prerequisites_of_calc=ticket
         )
+        self.DeclareVectorOutputPort(
+            "viewpoint",
+            3,
+            timed(self, self._calc_viewpoint),
+            prerequisites_of_calc={self._body_poses.ticket()},
+        )
         self.DeclarePeriodicUnrestrictedUpdateEvent(
             params.line_period, 0.0, timed(self, self._update)
         )
@@ -258,3 +266,8 @@ class TiltingLidar(LeafSystem):
 
     def _calc_sweep(self, context: Context, sweep: BasicVector) -> None:
         set_vector(sweep, np.array([self._get(context).sweeps], dtype=np.float64))
+
+    def _calc_viewpoint(self, context: Context, viewpoint: BasicVector) -> None:
+        body_poses = eval_abstract(self._body_poses, context, list)
+        X_WM = body_poses[self._mount_body].multiply(self._X_BM)
+        set_vector(viewpoint, X_WM.translation())

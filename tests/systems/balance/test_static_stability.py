@@ -21,7 +21,7 @@ def at_rest(in_contact: tuple[float, float]) -> tuple[StaticStability, Context]:
     system = StaticStability(**SOLE)
     context = system.CreateDefaultContext()
     system.GetInputPort("sole_poses").FixValue(context, POSES)
-    system.GetInputPort("in_contact").FixValue(context, in_contact)
+    system.GetInputPort("contacts").FixValue(context, [*in_contact, 0.24, 0.24])
     system.GetInputPort("com").FixValue(context, [0.05, 0.08, 0.8])
     return system, context
 
@@ -82,7 +82,7 @@ def test_it_computes_only_when_the_stance_changes(
     assert system.GetOutputPort("margin").Eval(context)[0] == signed_margin(
         expected(0, 1).vertices, np.array([0.3, 0.0])
     )
-    system.GetInputPort("in_contact").FixValue(context, [1.0, 0.0])
+    system.GetInputPort("contacts").FixValue(context, [1.0, 0.0, 0.24, 0.24])
     simulator.AdvanceTo(0.3)
     assert calls == [2, 1]
     poses[6:] += 0.1
@@ -113,3 +113,18 @@ def test_bad_soles_are_refused_at_once() -> None:
         StaticStability(**SOLE, period=0.0)
     with pytest.raises(ValueError, match="tolerance"):
         StaticStability(**SOLE, tolerance=-1.0)
+
+
+def test_a_lifted_heel_leaves_the_toes() -> None:
+    """A foot in toe-off carries on a strip at its toe edge, on level ground."""
+    system, context = at_rest((1.0, 1.0))
+    pitched = POSES.copy()
+    pitched[4:6] = 0.3, 0.0
+    system.GetInputPort("sole_poses").FixValue(context, pitched)
+    system.GetInputPort("contacts").FixValue(context, [1.0, 0.0, 0.01, 0.24])
+    Simulator(system, context).Initialize()
+    polygon = system.GetOutputPort("polygon").Eval(context)
+    edge = pitched[0] + SOLE["toe"] * np.cos(0.3)
+    assert polygon.status == "ok"
+    np.testing.assert_allclose(polygon.vertices[:, 0].max(), edge, atol=1e-9)
+    np.testing.assert_allclose(polygon.vertices[:, 0].min(), edge - 0.01, atol=1e-9)
