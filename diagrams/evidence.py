@@ -53,6 +53,8 @@ class Evidence:
     treads: tuple[Tread, ...]
     """The true treads, lowest first; empty without a staircase."""
     limits: Limits
+    goal: tuple[float, float, float] | None = None
+    """Where the midpoint of the feet was to come to, x, y, yaw, m and rad."""
     touches: tuple[Touch, ...] | None = None
     """What of the robot but its soles met the staircase; None where unknown."""
     activities: tuple[tuple[float, str], ...] | None = None
@@ -101,6 +103,7 @@ def gather(
         frames=frames,
         treads=task.scene.treads(),
         limits=robot_limits(task.plant, task.robot_instance),
+        goal=task.goal,
         touches=touches[-1].touches if touches else None,
         activities=tuple(activities) or None,
         segmentations=tuple(

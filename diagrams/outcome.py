@@ -34,6 +34,10 @@ FALLEN_TILT = np.deg2rad(60.0)
 """A robot has fallen when its torso leans more than this, rad."""
 FOOT_SLIP_TOLERANCE = 0.01
 """Slip that the reason mentions, m."""
+GOAL_DISTANCE = 0.10
+"""Within this the robot is at its goal, m."""
+GOAL_TURN = np.deg2rad(10.0)
+"""Within this it faces as it should there, rad."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,6 +59,10 @@ class Judgement:
     max_foot_slip_m: float | None = None
     max_impact_body_weights: float | None = None
     min_clearance_m: float | None = None
+    goal_error_m: float | None = None
+    """Horizontal distance of the feet's midpoint to the goal at the end."""
+    goal_turn_rad: float | None = None
+    """How far the feet's mean heading is from the goal's at the end."""
     climb_time_s: float | None = None
     """From the first motion until the last foot came to stand on the top tread,
     without the time spent scanning and planning."""
@@ -109,6 +117,8 @@ def judge(evidence: Evidence) -> Judgement:
         max_foot_slip_m=slip,
         max_impact_body_weights=_impact(evidence, wrenches),
         min_clearance_m=_clearance(evidence, wrenches),
+        goal_error_m=None if evidence.goal is None else _goal_error(evidence)[0],
+        goal_turn_rad=None if evidence.goal is None else _goal_error(evidence)[1],
         climb_time_s=_climb_time(evidence, contacts),
     )
 
@@ -134,6 +144,10 @@ def _verdict(
     done = "the robot stands"
     if evidence.treads:
         done = f"both feet rest on the top tread, number {len(evidence.treads)}"
+    if evidence.goal is not None:
+        done = (
+            f"the robot stands {100.0 * _goal_error(evidence)[0]:.1f} cm from the goal"
+        )
     if slip is not None and slip > FOOT_SLIP_TOLERANCE:
         done += f"; a loaded foot slid by {1e3 * slip:.0f} mm"
     return "completed", done
@@ -150,6 +164,12 @@ def _faults(evidence: Evidence, speed: tuple[float | None, str | None]) -> list[
                 evidence.motion.sole_corners[foot][-1], evidence.treads[-1]
             )
         ]
+    if evidence.goal is not None:
+        distance, turn = _goal_error(evidence)
+        if distance > GOAL_DISTANCE:
+            faults.append(f"the robot stands {distance:.2f} m from the goal")
+        if turn > GOAL_TURN:
+            faults.append(f"the robot faces {np.degrees(turn):.0f} deg off the goal's")
     fraction, joint = speed
     if fraction is not None and fraction > 1.0:
         faults.append(f"{joint} went at {fraction:.2f} times its speed limit")
@@ -159,6 +179,17 @@ def _faults(evidence: Evidence, speed: tuple[float | None, str | None]) -> list[
             f"({1e3 * touch.duration:.0f} ms, up to {touch.peak_force:.0f} N)"
         )
     return faults
+
+
+def _goal_error(evidence: Evidence) -> tuple[float, float]:
+    """Distance to the goal, m, and turn to its heading, rad, at the end."""
+    assert evidence.goal is not None
+    x, y, yaw = evidence.goal
+    feet = np.array([evidence.motion.X_WF[foot][-1] for foot in FEET])
+    distance = float(np.hypot(*(feet[:, :2, 3].mean(axis=0) - (x, y))))
+    ahead = feet[:, :2, 0].mean(axis=0)
+    turn = np.arctan2(ahead[1], ahead[0]) - yaw
+    return distance, float(abs((turn + np.pi) % (2.0 * np.pi) - np.pi))
 
 
 def _wrenches(evidence: Evidence) -> dict[Foot, Vector] | None:

@@ -14,6 +14,7 @@ from models.jvrc1 import JVRC1
 from models.robot import RobotModel
 from models.scene import SceneParams
 from models.solids import upright_pose
+from models.staircase import StaircaseParams
 from models.validation import (
     require_at_least,
     require_finite,
@@ -24,18 +25,24 @@ from models.validation import (
 from systems.balance.landing_adaptor import LandingParams
 from systems.balance.stabilizer import StabilizerParams
 from systems.balance.zmp_preview import ZmpPreviewParams
+from systems.perception.boxes import ObstacleClustererParams
+from systems.perception.depth_cloud import DepthCloudParams
+from systems.perception.floor import FloorParams
 from systems.perception.scan_assembler import ScanAssemblerParams
 from systems.perception.segmenter_params import PlaneSegmenterParams
 from systems.perception.staircase_merging import StaircaseMapParams
 from systems.planning.executive import ExecutiveParams
 from systems.planning.footstep_params import FootstepPlannerParams
 from systems.planning.motion_params import MotionPlannerParams
+from systems.planning.path_executive import PathExecutiveParams
+from systems.planning.path_params import PathPlannerParams
+from systems.sensing.depth_camera import DepthCameraParams
 from systems.sensing.tilting_lidar import TiltingLidarParams
 from systems.tracking.whole_body_ik import IkParams
 
 ROBOTS: dict[str, RobotModel] = {"jvrc1": JVRC1}
 """The robots that a scenario may name."""
-TASKS = ("stair_climbing",)
+TASKS = ("stair_climbing", "room_crossing")
 """What a robot may be asked to do."""
 MODES = ("dynamic",)
 """How it may do it."""
@@ -78,6 +85,8 @@ class RobotParams:
 class SensorsParams:
     """What the robot senses with."""
 
+    camera: DepthCameraParams = field(default_factory=DepthCameraParams)
+    """The room's ceiling camera; "room_crossing" only."""
     lidar: TiltingLidarParams = field(default_factory=TiltingLidarParams)
     """The scanner on its head. `simulation.seed` is added to its seed."""
 
@@ -111,11 +120,15 @@ class TaskParams:
     """What the robot is to do."""
 
     kind: str = "stair_climbing"
-    """What: "stair_climbing", up the staircase to its top tread."""
+    """What: "stair_climbing", up the staircase to its top tread; "room_crossing", over
+    the floor to `goal`."""
     mode: str = "dynamic"
     """How: "dynamic", with a moving ZMP under a stabiliser."""
     steps_between_scans: int = 2
-    """Footsteps between two scans: 2 scans from every tread."""
+    """How many treads are climbed before the robot stands and scans again."""
+    goal: list[float] = field(default_factory=lambda: [2.5, 0.0, 0.0])
+    """Where the midpoint of the feet is to come to and the heading there, in W, x, y,
+    yaw, m and rad; "room_crossing" only."""
     pushes: list[PushParams] = field(default_factory=list)
     """Pushes on the way."""
 
@@ -128,6 +141,9 @@ class TaskParams:
         require_one_of("kind", self.kind, TASKS)
         require_one_of("mode", self.mode, MODES)
         require_at_least("steps_between_scans", self.steps_between_scans, 1)
+        require_length("goal", self.goal, 3)
+        for index, value in enumerate(self.goal):
+            require_finite(f"goal[{index}]", value)
 
 
 @dataclass(kw_only=True)
@@ -156,6 +172,16 @@ class ControllerParams:
     """Balance feedback."""
     ik: IkParams = field(default_factory=IkParams)
     """Whole-body tracking."""
+    depth_cloud: DepthCloudParams = field(default_factory=DepthCloudParams)
+    """From a depth image to a cloud."""
+    floor: FloorParams = field(default_factory=FloorParams)
+    """What counts as the floor."""
+    obstacles: ObstacleClustererParams = field(default_factory=ObstacleClustererParams)
+    """From the points above the floor to boxes."""
+    path_planner: PathPlannerParams = field(default_factory=PathPlannerParams)
+    """The way through the room."""
+    path_executive: PathExecutiveParams = field(default_factory=PathExecutiveParams)
+    """When to look, plan and walk in a room."""
     executive: ExecutiveParams = field(default_factory=ExecutiveParams)
     """When to scan, plan and move."""
 
@@ -222,14 +248,10 @@ class Scenario:
                 "robot: must start inside the room, "
                 f"got x {self.robot.x:g} m, y {self.robot.y:g} m"
             )
-        if stairs is None:
+        if stairs is not None:
+            self._check_width(stairs, model)
+        elif self.task.kind == "stair_climbing":
             raise ValueError(f"scene.staircase: the task {self.task.kind} needs one")
-        soles = 4.0 * model.sole.half_width
-        if stairs.width < soles:
-            raise ValueError(
-                f"scene.staircase.width: must be at least {soles:g} m, two soles of "
-                f"{model.name} abreast, got {stairs.width:g} m"
-            )
         links = {
             link.attrib["name"]
             for link in ET.parse(model.urdf).getroot().findall("link")
@@ -242,6 +264,14 @@ class Scenario:
                     f"task.pushes[{index}].body: {model.name} has no link "
                     f"{push.body!r}{hint}"
                 )
+
+    def _check_width(self, stairs: StaircaseParams, model: RobotModel) -> None:
+        soles = 4.0 * model.sole.half_width
+        if stairs.width < soles:
+            raise ValueError(
+                f"scene.staircase.width: must be at least {soles:g} m, two soles of "
+                f"{model.name} abreast, got {stairs.width:g} m"
+            )
 
 
 def load_scenario(name_or_path: str | Path, overrides: Sequence[str] = ()) -> Scenario:

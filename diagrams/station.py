@@ -1,5 +1,6 @@
 """The robot in its scene: plant, joint servos, sensors and what pushes it."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -66,7 +67,12 @@ def robot_alone(robot: RobotModel) -> MultibodyPlant:
 
 
 def add_station(
-    builder: DiagramBuilder, scenario: Scenario, robot: RobotModel, period: float
+    builder: DiagramBuilder,
+    scenario: Scenario,
+    robot: RobotModel,
+    period: float,
+    forbidden: Sequence[str] = (STAIRCASE_PREFIX,),
+    soles_allowed: bool = True,
 ) -> Station:
     """Adds robot, scene, servos, proprioception and pushes.
 
@@ -75,6 +81,9 @@ def add_station(
         scenario: what stands where, and the simulation's settings.
         robot: which robot.
         period: of the controllers, s.
+        forbidden: what the names of the solids begin with that the robot must not
+            touch.
+        soles_allowed: whether its soles may.
 
     Returns:
         What the rest of a diagram connects to.
@@ -112,8 +121,8 @@ def add_station(
                 plant,
                 scene_graph.model_inspector(),
                 instance,
-                STAIRCASE_PREFIX,
-                is_sole,
+                tuple(forbidden),
+                is_sole if soles_allowed else lambda name: False,
             ),
             scenario.simulation.time_step,
         ),

@@ -38,7 +38,6 @@ class Summary(Judgement):
     real_time_factor: float | None
     """Simulated time over wall time."""
     obstacles_crossed: int | None = None
-    goal_error_m: float | None = None
     perception: Mapping[str, Json] | None = None
     """Frames, ms a frame by stage, errors against the true scene."""
     timing_us: Mapping[str, Mapping[str, float]] = field(default_factory=dict)

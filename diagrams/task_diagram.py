@@ -31,6 +31,9 @@ class TaskDiagram:
     """The ports that are logged."""
     status: OutputPort
     """The executive's `TaskStatus`."""
+    goal: tuple[float, float, float] | None = None
+    """Where the midpoint of the feet is to come to, x, y, yaw in W, where the task has
+    a goal."""
     meshcat: Meshcat | None = None
     """Where the run can be watched live, where that was asked for."""
 

@@ -2,11 +2,15 @@
 
 from pydrake.geometry import Meshcat
 
+from diagrams.room_crossing import build_room_crossing
 from diagrams.scenario import Scenario, ScenarioError
 from diagrams.stair_climbing import build_stair_climbing
 from diagrams.task_diagram import TaskDiagram
 
-BUILDERS = {"stair_climbing": build_stair_climbing}
+BUILDERS = {
+    "room_crossing": build_room_crossing,
+    "stair_climbing": build_stair_climbing,
+}
 """Who builds which kind of task."""
 
 

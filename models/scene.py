@@ -6,6 +6,7 @@ import numpy as np
 
 from models.obstacle import BoxParams
 from models.room import RoomParams
+from models.room_obstacles import ClutterParams
 from models.solids import Box
 from models.staircase import StaircaseParams, Tread
 from systems.ports import Vector
@@ -21,6 +22,8 @@ class SceneParams:
     """The staircase, where there is one."""
     boxes: list[BoxParams] = field(default_factory=list)
     """Obstacles and clutter."""
+    clutter: ClutterParams | None = None
+    """More boxes at places drawn at random, where there are to be any."""
 
     def validate(self) -> None:
         """Checks what concerns more than one part; each part checks itself.

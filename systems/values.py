@@ -222,6 +222,10 @@ class MotionPlan(Value):
         """From the first row to the last, s."""
         return (len(self.zmp) - 1) * self.period
 
+    def starting_at(self, time: float) -> "MotionPlan":
+        """The same motion from another time on, s."""
+        return dataclasses.replace(self, start_time=time)
+
 
 @dataclass(frozen=True, eq=False)
 class PlaneSegmentation(Value):

@@ -87,7 +87,7 @@ def decide(
             stopped = _turn_to(known, "stand", time)
             status = TaskStatus(footsteps.status, "stand", footsteps.reason)
             return dataclasses.replace(stopped, status=status)
-        plan = dataclasses.replace(plan_motion(), start_time=time)
+        plan = plan_motion().starting_at(time)
         return _turn_to(dataclasses.replace(known, motion_plan=plan), "move", time)
     if before.activity == "move":
         plan = before.motion_plan

@@ -51,7 +51,7 @@ def watched_geometry(
     plant: MultibodyPlant,
     inspector: SceneGraphInspector,
     robot: ModelInstanceIndex,
-    solid_prefix: str,
+    solid_prefix: str | tuple[str, ...],
     is_sole: Callable[[str], bool],
 ) -> WatchedGeometry:
     """Finds the robot's geometries that are no soles, and the scene's to keep off.
@@ -60,7 +60,8 @@ def watched_geometry(
         plant: the finalised plant.
         inspector: of the scene graph that the plant is registered with.
         robot: the robot's model instance.
-        solid_prefix: what the names (without scope) of the solids begin with.
+        solid_prefix: what the names (without scope) of the solids begin with, one or
+            several.
         is_sole: tells a sole's geometry by its name.
     """
     bodies: list[str] = []

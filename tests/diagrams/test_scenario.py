@@ -125,7 +125,10 @@ def test_one_seed_rules_the_scanner() -> None:
         ("parameters.segmenter.voxel_size=0", "parameters.segmenter.voxel_size: must "),
         ("robot.name=hrp4", "robot.name: must be one of jvrc1, got 'hrp4'"),
         ("robot.x=20", "robot: must start inside the room, got x 20 m, y 0 m"),
-        ("task.kind=fly", "task.kind: must be one of stair_climbing, got 'fly'"),
+        (
+            "task.kind=fly",
+            "task.kind: must be one of stair_climbing, room_crossing, got 'fly'",
+        ),
         ("task.mode=fast", "task.mode: must be one of dynamic, got 'fast'"),
         ("task.steps_between_scans=0", "task.steps_between_scans: must be at least 1"),
         ("task.pushes=[{body: HEAD}]", "task.pushes[0].body: jvrc1 has no link 'HEAD'"),

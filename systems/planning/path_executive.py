@@ -1,0 +1,304 @@
+"""Decides what is due in a room: look, plan, walk, and look while walking."""
+
+import dataclasses
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+import shapely  # type: ignore[import-untyped]
+from pydrake.common.value import AbstractValue
+from pydrake.systems.framework import Context, LeafSystem, State
+
+from models.robot import Sole
+from systems.planning.foothold import sole_corners
+from systems.ports import eval_abstract, eval_vector
+from systems.room_values import Environment, PathPlan
+from systems.timing import timed
+from systems.values import Footstep, FootstepPlan, MotionPlan, TaskStatus, Value
+
+Activity: TypeAlias = Literal["look", "move", "stop", "stand"]
+
+
+@dataclass(kw_only=True)
+class PathExecutiveParams:
+    """When it decides and what it takes for blocked."""
+
+    period: float = 0.025
+    """Between decisions, s."""
+    settle_time: float = 0.4
+    """Standing still before a look on which a path is planned, s."""
+    look_period: float = 0.5
+    """Between looks at the room while walking, s."""
+    body_radius: float = 0.22
+    """What the walking body takes around each sole, m: a box that comes nearer blocks
+    the step. Less than what paths keep, so that the noise of a box's edge does not."""
+    most_plans: int = 20
+    """After this many plans the task is given up."""
+
+    def validate(self) -> None:
+        """Checks every field.
+
+        Raises:
+            ValueError: "field: reason, got x" for the first field that is wrong.
+        """
+        for name in ("period", "look_period"):
+            if not getattr(self, name) > 0.0:
+                raise ValueError(f"{name}: must be positive, got {getattr(self, name)}")
+        for name in ("settle_time", "body_radius"):
+            if not getattr(self, name) >= 0.0:
+                raise ValueError(
+                    f"{name}: must not be negative, got {getattr(self, name)}"
+                )
+        if not self.most_plans >= 1:
+            raise ValueError(f"most_plans: must be at least 1, got {self.most_plans}")
+
+
+@dataclass(frozen=True, eq=False)
+class PathDecision(Value):
+    """What the executive has decided, and what that rests on."""
+
+    motion_plan: MotionPlan
+    footstep_plan: FootstepPlan = dataclasses.field(default_factory=FootstepPlan)
+    path_plan: PathPlan = dataclasses.field(default_factory=PathPlan)
+    environment: Environment = dataclasses.field(default_factory=Environment)
+    activity: Activity = "look"
+    since: float = 0.0
+    """When this activity began, s."""
+    looked: float = 0.0
+    """When the room was last looked at, s."""
+    plans: int = 0
+    """How many motions were planned."""
+    status: TaskStatus = dataclasses.field(default_factory=TaskStatus)
+
+
+def blocking_box(
+    footsteps: tuple[Footstep, ...],
+    environment: Environment,
+    sole: Sole,
+    body_radius: float,
+) -> str | None:
+    """The name of a box in the way of footsteps; None where the way is clear.
+
+    Args:
+        footsteps: that are still to be made.
+        environment: what is seen now.
+        sole: of both feet.
+        body_radius: what the body takes around each sole, m.
+    """
+    for footstep in footsteps:
+        outline = shapely.Polygon(sole_corners(footstep.X_WF, sole)[:, :2])
+        for box in environment.boxes:
+            if outline.distance(shapely.Polygon(box.footprint())) < body_radius:
+                return box.name
+    return None
+
+
+def remaining_footsteps(plan: MotionPlan, time: float) -> tuple[Footstep, ...]:
+    """The footsteps of a plan that have not landed yet."""
+    lands = [phase.end for phase in plan.phases if phase.swing is not None]
+    done = sum(plan.start_time + land <= time for land in lands)
+    return plan.footsteps[done:]
+
+
+@dataclass(frozen=True)
+class Sources:
+    """What the executive can ask for; each is evaluated only when it is called."""
+
+    environment: Callable[[], Environment]
+    path: Callable[[], PathPlan]
+    footsteps: Callable[[], FootstepPlan]
+    motion: Callable[[], MotionPlan]
+    stop: Callable[[MotionPlan, float], MotionPlan | None]
+
+
+def decide(
+    before: PathDecision,
+    time: float,
+    frames: int,
+    sources: Sources,
+    sole: Sole,
+    params: PathExecutiveParams,
+) -> PathDecision:
+    """One decision.
+
+    Args:
+        before: the last one.
+        time: now, s.
+        frames: how many frames the camera has taken.
+        sources: perception and planners.
+        sole: of both feet.
+        params: see there.
+
+    Returns:
+        The decision; `before` itself where nothing changes.
+    """
+    if before.activity == "look":
+        if time - before.since < params.settle_time or frames == 0:
+            return before
+        return _plan(before, time, sources, params)
+    if before.activity in ("move", "stop"):
+        plan = before.motion_plan
+        if time >= plan.start_time + plan.duration:
+            return _turn_to(before, "look", time)
+        if before.activity == "stop" or time - before.looked < params.look_period:
+            return before
+        environment = sources.environment()
+        looked = dataclasses.replace(before, looked=time, environment=environment)
+        ahead = remaining_footsteps(plan, time)
+        if blocking_box(ahead, environment, sole, params.body_radius) is None:
+            return looked
+        shorter = sources.stop(plan, time)
+        if shorter is None:
+            return looked
+        return _turn_to(dataclasses.replace(looked, motion_plan=shorter), "stop", time)
+    return before
+
+
+def _plan(
+    before: PathDecision, time: float, sources: Sources, params: PathExecutiveParams
+) -> PathDecision:
+    footsteps = sources.footsteps()
+    known = dataclasses.replace(
+        before,
+        looked=time,
+        environment=sources.environment(),
+        path_plan=sources.path(),
+        footstep_plan=footsteps,
+    )
+    status, reason = footsteps.status, footsteps.reason
+    if status == "planned" and before.plans >= params.most_plans:
+        status, reason = "infeasible", f"not there after {before.plans} plans"
+    if status != "planned":
+        stopped = _turn_to(known, "stand", time)
+        return dataclasses.replace(stopped, status=TaskStatus(status, "stand", reason))
+    plan = sources.motion().starting_at(time)
+    moving = dataclasses.replace(known, motion_plan=plan, plans=before.plans + 1)
+    return _turn_to(moving, "move", time)
+
+
+def _turn_to(before: PathDecision, activity: Activity, time: float) -> PathDecision:
+    status = TaskStatus("running", activity)
+    return dataclasses.replace(before, activity=activity, since=time, status=status)
+
+
+class PathExecutive(LeafSystem):
+    """Looks at the room, plans a way to the goal, walks it, and looks on the way.
+
+    A box that is seen on the steps ahead makes the robot stop in balance; it then
+    looks again, plans anew and goes on.
+
+    .. pydrake_system::
+
+        name: PathExecutive
+        input_ports:
+        - frame
+        - environment
+        - path_plan
+        - footstep_plan
+        - motion_plan
+        output_ports:
+        - motion_plan
+        - footstep_plan
+        - path_plan
+        - environment
+        - status
+
+    - `frame`: how many frames the camera has taken, (1,).
+    - `environment` (input): floor and boxes as seen now, abstract Environment;
+      evaluated at every look.
+    - `path_plan` (input): from where the robot stands to the goal, abstract PathPlan;
+      evaluated once a plan, as are the next two.
+    - `footstep_plan` (input): footsteps along it, abstract FootstepPlan.
+    - `motion_plan` (input): the motion along those, abstract MotionPlan.
+    - `motion_plan` (output): the motion that is being carried out.
+    - `footstep_plan` (output): the footsteps that were planned last.
+    - `path_plan` (output): their path.
+    - `environment` (output): what was seen at the last look.
+    - `status`: how the task is going, abstract TaskStatus.
+    """
+
+    def __init__(
+        self,
+        params: PathExecutiveParams,
+        sole: Sole,
+        stand: MotionPlan,
+        stop: Callable[[MotionPlan, float], MotionPlan | None],
+    ) -> None:
+        """Declares ports and the update.
+
+        Args:
+            params: see there.
+            sole: of both feet.
+            stand: the plan of the default context, which stands.
+            stop: cuts a plan short from a time on; None where it ends as soon.
+
+        Raises:
+            ValueError: a parameter is out of range.
+        """
+        super().__init__()
+        params.validate()
+        self._params, self._sole, self._stop = params, sole, stop
+        self._state = self.DeclareAbstractState(AbstractValue.Make(PathDecision(stand)))
+        self._frame = self.DeclareVectorInputPort("frame", 1)
+        self._environment = self.DeclareAbstractInputPort(
+            "environment", AbstractValue.Make(Environment())
+        )
+        self._path = self.DeclareAbstractInputPort(
+            "path_plan", AbstractValue.Make(PathPlan())
+        )
+        self._footsteps = self.DeclareAbstractInputPort(
+            "footstep_plan", AbstractValue.Make(FootstepPlan())
+        )
+        self._motion = self.DeclareAbstractInputPort(
+            "motion_plan", AbstractValue.Make(stand)
+        )
+        ticket = {self.abstract_state_ticket(self._state)}
+        parts: tuple[tuple[str, object, Callable[[PathDecision], object]], ...] = (
+            ("motion_plan", stand, lambda decision: decision.motion_plan),
+            ("footstep_plan", FootstepPlan(), lambda decision: decision.footstep_plan),
+            ("path_plan", PathPlan(), lambda decision: decision.path_plan),
+            ("environment", Environment(), lambda decision: decision.environment),
+            ("status", TaskStatus(), lambda decision: decision.status),
+        )
+        for name, model, part in parts:
+            calc: Callable[..., None] = timed(self, self._calc(part))
+            self.DeclareAbstractOutputPort(
+                name,
+                lambda model=model: AbstractValue.Make(model),
+                calc,
+                prerequisites_of_calc=ticket,
+            )
+        self.DeclarePeriodicUnrestrictedUpdateEvent(
+            params.period, 0.0, timed(self, self._update)
+        )
+
+    def _decision(self, context: Context) -> PathDecision:
+        state: Any = context.get_abstract_state(int(self._state))
+        decision = state.get_value()
+        assert isinstance(decision, PathDecision)
+        return decision
+
+    def _calc(
+        self, part: Callable[[PathDecision], object]
+    ) -> Callable[[Context, AbstractValue], None]:
+        def calc(context: Context, output: AbstractValue) -> None:
+            output.set_value(part(self._decision(context)))
+
+        return calc
+
+    def _update(self, context: Context, state: State) -> None:
+        before = self._decision(context)
+        sources = Sources(
+            lambda: eval_abstract(self._environment, context, Environment),
+            lambda: eval_abstract(self._path, context, PathPlan),
+            lambda: eval_abstract(self._footsteps, context, FootstepPlan),
+            lambda: eval_abstract(self._motion, context, MotionPlan),
+            self._stop,
+        )
+        frames = round(float(np.asarray(eval_vector(self._frame, context))[0]))
+        after = decide(
+            before, context.get_time(), frames, sources, self._sole, self._params
+        )
+        if after is not before:
+            state.get_mutable_abstract_state(int(self._state)).set_value(after)
