@@ -16,9 +16,9 @@ def needed_forces(
     plant: MultibodyPlant, context: Context, acceleration: Vector
 ) -> Vector:
     """Generalised forces of a motion without contacts, M vdot + C v - g, (nv,)."""
-    forces: Vector = plant.CalcInverseDynamics(
-        context, acceleration, MultibodyForces(plant)
-    )
+    gravity = MultibodyForces(plant)
+    plant.CalcForceElementsContribution(context, gravity)
+    forces: Vector = plant.CalcInverseDynamics(context, acceleration, gravity)
     return forces
 
 

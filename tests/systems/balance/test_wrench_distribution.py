@@ -1,0 +1,239 @@
+"""Sharing a wrench among the feet: exact where it can be, inside the cones always."""
+
+from itertools import product
+
+import numpy as np
+import pytest
+from pydrake.math import RigidTransform, RollPitchYaw
+from pydrake.solvers import ClarabelSolver, MathematicalProgram
+from scipy.optimize import linprog
+
+from models.jvrc1 import JVRC1
+from systems.balance.contact_wrench_cone import contact_wrench_cone
+from systems.balance.wrench_distribution import DistributionParams, distribute_wrench
+from systems.ports import Vector
+
+SOLE = JVRC1.sole
+LEVEL = np.array([[0.0, 0.1, 0, 0, 0, 0], [0.05, -0.1, 0, 0, 0, 0]])
+STAIRS = np.array([[0.0, 0.1, 0.0, 0, 0, 0.1], [0.3, -0.1, 0.2, 0, 0, -0.1]])
+TOE_OFF = np.array([[0.0, 0.1, 0.1, 0, 0.5, 0.0], [0.35, -0.1, 0.2, 0, 0, 0.0]])
+FLAT = np.array([SOLE.length, SOLE.length])
+STRIP = np.array([0.01, SOLE.length])
+WEIGHT = 62.4 * 9.81
+COM = np.array([0.08, 0.0, 0.85])
+
+
+def distribute(
+    net: Vector,
+    poses: Vector = LEVEL,
+    contacts: tuple[float, float] = (1.0, 1.0),
+    lengths: Vector = FLAT,
+    com: Vector = COM,
+    **params: float,
+) -> Vector:
+    """The wrenches; the programme must be solved."""
+    wrenches, solved = distribute_wrench(
+        net, com, poses, np.array(contacts), lengths, SOLE, DistributionParams(**params)
+    )
+    assert solved
+    return wrenches
+
+
+def net_of(wrenches: Vector, poses: Vector, com: Vector = COM) -> Vector:
+    """Force, then moment about the CoM, (6,)."""
+    net = np.zeros(6)
+    for wrench, pose in zip(wrenches, poses, strict=True):
+        net[:3] += wrench[:3]
+        net[3:] += wrench[3:] + np.cross(pose[:3] - com, wrench[:3])
+    return net
+
+
+def corner_forces_exist(
+    wrench: Vector, pose: Vector, length: float, friction: float
+) -> bool:
+    """Whether forces at the carrying part's corners, in pyramids, make the wrench.
+
+    Another way to say what the contact wrench cone says, by linear programming.
+    """
+    R = RollPitchYaw(pose[3:]).ToRotationMatrix().matrix()
+    columns = []
+    for x, y in product((SOLE.toe - length, SOLE.toe), (-1.0, 1.0)):
+        p_W = R @ [x, y * SOLE.half_width, 0.0]
+        for fx, fy in product((-friction, friction), repeat=2):
+            force = R @ [fx, fy, 1.0]
+            columns.append(np.concatenate([force, np.cross(p_W, force)]))
+    A = np.array(columns).T
+    return bool(linprog(np.zeros(16), A_eq=A, b_eq=wrench).status == 0)
+
+
+@pytest.mark.parametrize("poses", [LEVEL, STAIRS], ids=["level", "stairs"])
+def test_a_wrench_within_reach_is_met(poses: Vector) -> None:
+    """Weight, a sideways force and moments, on level ground and on stairs."""
+    com = COM + np.array([0.5 * poses[1, 0] - 0.025, 0.0, poses[1, 2]])
+    net = np.array([20.0, -15.0, WEIGHT, 2.0, -3.0, 1.0])
+    wrenches = distribute(net, poses, com=com)
+    np.testing.assert_allclose(net_of(wrenches, poses, com), net, atol=0.2)
+
+
+def test_symmetric_stance_shares_equally() -> None:
+    """CoM over the middle of the soles between the feet."""
+    poses = np.array([[0.0, 0.1, 0, 0, 0, 0], [0.0, -0.1, 0, 0, 0, 0]])
+    com = np.array([0.0375, 0.0, 0.85])
+    net = np.array([0, 0, WEIGHT, 0, 0, 0])
+    left, right = distribute(net, poses, com=com)
+    np.testing.assert_allclose(left[:3], [0.0, 0.0, 0.5 * WEIGHT], atol=0.1)
+    np.testing.assert_allclose(left * [1, -1, 1, -1, 1, -1], right, atol=0.05)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_every_foot_stays_within_its_cone(seed: int) -> None:
+    """Also for wrenches out of reach: corner forces within friction exist."""
+    rng = np.random.default_rng(seed)
+    poses, lengths = [(LEVEL, FLAT), (STAIRS, FLAT), (TOE_OFF, STRIP)][seed % 3]
+    net = np.array([0, 0, WEIGHT, 0, 0, 0]) + rng.uniform(-1, 1, 6) * [
+        *(400, 400, 300),
+        *(100, 100, 60),
+    ]
+    com = COM + rng.uniform(-0.2, 0.2, 3)
+    wrenches = distribute(net, poses, lengths=lengths, com=com)
+    for wrench, pose, length in zip(wrenches, poses, lengths, strict=True):
+        assert corner_forces_exist(wrench, pose, length, 0.6 + 1e-6)
+        R = RollPitchYaw(pose[3:]).ToRotationMatrix().matrix()
+        assert (R.T @ wrench[:3])[2] >= 5.0 - 1e-6
+
+
+def test_sideways_force_beyond_friction_is_given_up() -> None:
+    """The weight is still carried."""
+    force = np.array([1.5 * WEIGHT, 0.0, WEIGHT])
+    moment = np.cross([0.06, 0.0, 0.0] - COM, force)
+    wrenches = distribute(np.concatenate([force, moment]), moment_weight=0.01)
+    total = net_of(wrenches, LEVEL)
+    assert total[0] == pytest.approx(0.6 * total[2], rel=1e-3)
+    assert total[2] > 0.9 * WEIGHT
+
+
+def test_an_independent_solver_finds_the_same() -> None:
+    """The objective as sums of squares of world wrenches, solved by Clarabel."""
+    params = DistributionParams()
+    net = np.array([250.0, -100.0, 1.1 * WEIGHT, 60.0, -40.0, 20.0])
+    program = MathematicalProgram()
+    w = program.NewContinuousVariables(12)
+    grasp = np.zeros((6, 12))
+    for i, (pose, length) in enumerate(zip(TOE_OFF, STRIP, strict=True)):
+        R = RollPitchYaw(pose[3:]).ToRotationMatrix().matrix()
+        p_FC = np.array([SOLE.toe - 0.5 * length, 0.0, 0.0])
+        # From the wrench about F in W to the one about the strip's centre in F.
+        to_centre = np.zeros((6, 6))
+        to_centre[:3, :3] = to_centre[3:, 3:] = R.T
+        to_centre[3:, :3] = -R.T @ cross_matrix(R @ p_FC)
+        A = contact_wrench_cone(
+            max(0.5 * length - 0.004, 0.25 * length), SOLE.half_width - 0.004, 0.6
+        )
+        block = w[6 * i : 6 * i + 6]
+        program.AddLinearConstraint(
+            A @ to_centre, np.full(16, -np.inf), np.zeros(16), block
+        )
+        program.AddLinearConstraint(to_centre[2:3], [5.0], [np.inf], block)
+        costs = [1e-4, 1e-4, 0.0, *params.moment_cost]
+        root = np.sqrt(costs)[:, None] * to_centre
+        program.Add2NormSquaredCost(root, np.zeros(6), block)
+        grasp[:, 6 * i : 6 * i + 6] = np.eye(6)
+        grasp[3:, 6 * i : 6 * i + 3] = cross_matrix(pose[:3] - COM)
+    root = np.sqrt([1.0, 1.0, 1.0, 10.0, 10.0, 3.0])
+    program.Add2NormSquaredCost(root[:, None] * grasp, root * net, w)
+    result = ClarabelSolver().Solve(program)
+    assert result.is_success()
+    wrenches = distribute(net, TOE_OFF, lengths=STRIP)
+    np.testing.assert_allclose(
+        wrenches.ravel(), result.GetSolution(w), rtol=1e-3, atol=0.05
+    )
+
+
+def cross_matrix(p: Vector) -> Vector:
+    """[p] with [p] f = p x f."""
+    return np.cross(np.eye(3), p)
+
+
+def test_centre_of_pressure_keeps_off_the_edges() -> None:
+    """By the margin, however far outside the ZMP is wanted."""
+    for com in ([0.5, 0.0, 0.85], [-0.5, 0.0, 0.85], [0.05, 0.6, 0.85]):
+        wrenches = distribute(
+            np.array([0, 0, WEIGHT, 0, 0, 0]), com=np.array(com), edge_margin=0.01
+        )
+        for wrench in wrenches:
+            x, y = -wrench[4] / wrench[2], wrench[3] / wrench[2]
+            assert -SOLE.heel + 0.01 - 1e-6 <= x <= SOLE.toe - 0.01 + 1e-6
+            assert abs(y) <= SOLE.half_width - 0.01 + 1e-6
+
+
+def test_one_foot_carries_all() -> None:
+    """And the one in the air is left alone."""
+    com = np.array([0.09, -0.1, 0.85])
+    net = np.array([0, 0, WEIGHT, 0, 0, 0])
+    wrenches = distribute(net, contacts=(0.0, 1.0), com=com)
+    assert not wrenches[0].any()
+    np.testing.assert_allclose(net_of(wrenches, LEVEL, com), net, atol=0.2)
+
+
+def test_a_lifted_heel_carries_at_the_toes_only() -> None:
+    """Its centre of pressure lies within the strip, seen in the tilted foot."""
+    com = np.array([0.2, 0.0, 0.95])
+    wrenches = distribute(
+        np.array([0, 0, WEIGHT, 0, 0, 0]), TOE_OFF, lengths=STRIP, com=com
+    )
+    R_FW = RollPitchYaw(TOE_OFF[0, 3:]).ToRotationMatrix().matrix().T
+    force, moment = R_FW @ wrenches[0, :3], R_FW @ wrenches[0, 3:]
+    assert force[2] >= 5.0 - 1e-6
+    x = -moment[1] / force[2]
+    assert SOLE.toe - 0.01 - 1e-6 <= x <= SOLE.toe + 1e-6
+
+
+def test_nobody_on_the_ground_is_no_wrench() -> None:
+    """In flight."""
+    assert not distribute(np.ones(6), contacts=(0.0, 0.0)).any()
+
+
+def test_costs_prefer_the_middle_of_the_soles() -> None:
+    """Feet one behind the other: the load is shared, not the centres of pressure."""
+    poses = np.array([[0.0, 0.1, 0, 0, 0, 0], [0.3, -0.1, 0, 0, 0, 0]])
+    com = np.array([0.0375 + 0.1, 0.1 - 0.2 / 3.0, 0.85])
+    wrenches = distribute(np.array([0, 0, WEIGHT, 0, 0, 0]), poses, com=com)
+    shares = wrenches[:, 2] / WEIGHT
+    np.testing.assert_allclose(shares, [2.0 / 3.0, 1.0 / 3.0], atol=0.01)
+    np.testing.assert_allclose(-wrenches[:, 4] / wrenches[:, 2], 0.0375, atol=0.01)
+
+
+def test_poses_may_stand_anywhere() -> None:
+    """Turning everything about z turns the answer."""
+    X = RigidTransform(RollPitchYaw(0.0, 0.0, 1.1), [3.0, -2.0, 0.0])
+    R = X.rotation().matrix()
+    net = np.array([20.0, -15.0, WEIGHT, 2.0, -3.0, 1.0])
+    turned = LEVEL.copy()
+    for pose in turned:
+        pose[:3] = X.multiply(pose[:3])
+        pose[5] += 1.1
+    there = distribute(
+        np.concatenate([R @ net[:3], R @ net[3:]]), turned, com=X.multiply(COM)
+    )
+    here = distribute(net)
+    np.testing.assert_allclose(
+        there, np.hstack([here[:, :3] @ R.T, here[:, 3:] @ R.T]), atol=0.3
+    )
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("friction", 0.0),
+        ("force_weight", -1.0),
+        ("yaw_weight", np.inf),
+        ("edge_margin", -0.001),
+        ("least_force", np.nan),
+        ("moment_cost", [1.0, 2.0]),
+        ("moment_cost", [1.0, -2.0, 3.0]),
+    ],
+)
+def test_parameters_out_of_range_are_refused(field: str, value: object) -> None:
+    """By name."""
+    with pytest.raises(ValueError, match=rf"^{field}: must be|^{field}: must not be"):
+        DistributionParams(**{field: value}).validate()
