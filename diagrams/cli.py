@@ -1,9 +1,9 @@
 """The command `footfall`."""
 
 import logging
-import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+import tempfile
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -12,6 +12,8 @@ import typer
 # What simulates takes seconds to import; every command imports what it needs, so that
 # the help text comes at once.
 if TYPE_CHECKING:
+    from rich.console import Console
+
     from diagrams.scenario import Scenario
     from diagrams.summary import Summary
     from systems.ports import Vector
@@ -211,6 +213,7 @@ def _free_folder(scenario: "Scenario", out: Path | None) -> Path:
     if out is not None:
         if out.exists() and (not out.is_dir() or any(out.iterdir())):
             raise OptionError(f"--out {out}: exists and is not an empty folder")
+        _require_writable(out)
         return out
     name = f"{scenario.name}-seed{scenario.simulation.seed}"
     folder, number = RUNS_FOLDER / name, 1
@@ -220,12 +223,24 @@ def _free_folder(scenario: "Scenario", out: Path | None) -> Path:
     return folder
 
 
+def _require_writable(out: Path) -> None:
+    """Tells before a run of minutes, rather than after it, that it cannot be kept."""
+    try:
+        out.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=out.parent):
+            pass
+    except OSError as error:
+        raise OptionError(
+            f"--out {out}: cannot be written: {error.strerror}"
+        ) from error
+
+
 def _simulate(scenario: "Scenario", folder: Path, live: bool) -> "Summary":
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
     console = Console(stderr=True)
-    with console.status("building the diagram"):
+    with _status(console, "building the diagram"):
         from pydrake.geometry import Meshcat
 
         from diagrams.illustrations import illustrate
@@ -245,32 +260,32 @@ def _simulate(scenario: "Scenario", folder: Path, live: bool) -> "Summary":
         TimeElapsedColumn(),
         console=console,
         transient=True,
+        disable=not console.is_terminal,
     ) as bar:
         job = bar.add_task("", total=limit, activity="")
         summary = run_task(
             task,
             scenario,
             folder,
-            progress=_reporter(
-                lambda time, activity: bar.update(
-                    job, completed=time, activity=activity
-                )
+            progress=lambda time, activity: bar.update(
+                job, completed=time, activity=activity
             ),
             realtime_rate=1.0 if live else 0.0,
         )
-    with console.status("drawing figures, replay and block diagram"):
+    with _status(console, "drawing figures, replay and block diagram"):
         for complaint in illustrate(folder, task.diagram):
             console.print(f"footfall: {complaint}", style="yellow", highlight=False)
     return summary
 
 
-def _reporter(show: Callable[[float, str], None]) -> Callable[[float, str], None]:
-    """Where there is no terminal a bar would only fill the log: nothing is shown."""
-    return show if sys.stderr.isatty() else lambda time, activity: None
+def _status(console: "Console", doing: str) -> AbstractContextManager[object]:
+    """Where there is no terminal a spinner would only fill the log with blank lines."""
+    return console.status(doing) if console.is_terminal else nullcontext()
 
 
 def _print_summary(summary: "Summary", folder: Path) -> None:
     from rich.console import Console
+    from rich.markup import escape
     from rich.table import Table
 
     data = summary.to_json()
@@ -278,9 +293,9 @@ def _print_summary(summary: "Summary", folder: Path) -> None:
     console = Console(highlight=False)
     console.print(
         f"[bold {color}]{summary.outcome}[/]",
-        f"{summary.reason}",
+        escape(summary.reason),
         sep=": ",
-        markup=True,
+        soft_wrap=True,
     )
     table = Table(box=None, show_header=False, padding=(0, 2, 0, 0))
     skipped = {"outcome", "reason", "timing_us", "versions", "perception"}
@@ -295,7 +310,7 @@ def _print_summary(summary: "Summary", folder: Path) -> None:
             shown = f"{shown} ({joint})"
         table.add_row(name, str(shown))
     console.print(table)
-    console.print(f"written to {folder}")
+    console.print(f"written to {folder}", markup=False, soft_wrap=True)
 
 
 def _parse_direction(text: str) -> "Vector":
@@ -325,9 +340,16 @@ def _bad_input_in_one_line() -> Iterator[None]:
     except Exception as error:
         if not isinstance(error, _bad_input_errors()):
             raise
-        line = " ".join(str(error).split())
+        line = " ".join(_message(error).split())
         typer.echo(f"footfall: {line}", err=True)
         raise typer.Exit(BAD_INPUT) from None
+
+
+def _message(error: Exception) -> str:
+    """What the system says of a file comes with its name first, as ours does."""
+    if isinstance(error, OSError) and error.filename is not None and error.strerror:
+        return f"{error.filename}: {error.strerror}"
+    return str(error)
 
 
 def _bad_input_errors() -> tuple[type[Exception], ...]:

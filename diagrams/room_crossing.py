@@ -15,7 +15,6 @@ from diagrams.walking import add_walking, initial_stand
 from diagrams.walking_signals import VALUE_PERIOD, record_walking
 from diagrams.wiring import add_system
 from models.robot_loader import body_meshes
-from models.room_obstacles import place_boxes
 from models.solids import triangle_mesh
 from systems.perception.depth_cloud import DepthCloud
 from systems.perception.environment_exchange import EnvironmentExchange
@@ -38,22 +37,6 @@ FORBIDDEN = ("box/", "room/wall", "room/ceiling")
 """What the robot must not touch, with its soles neither."""
 
 
-def with_clutter(scenario: Scenario) -> Scenario:
-    """The scenario with its clutter in place, drawn with the run's seed."""
-    clutter = scenario.scene.clutter
-    if clutter is None:
-        return scenario
-    start, goal = scenario.robot, scenario.task.goal
-    boxes = place_boxes(
-        dataclasses.replace(clutter, seed=clutter.seed + scenario.simulation.seed),
-        np.array([[start.x, start.y], goal[:2]]),
-    )
-    scene = dataclasses.replace(
-        scenario.scene, boxes=[*scenario.scene.boxes, *boxes], clutter=None
-    )
-    return dataclasses.replace(scenario, scene=scene)
-
-
 def build_room_crossing(
     scenario: Scenario, meshcat: Meshcat | None = None
 ) -> TaskDiagram:
@@ -66,7 +49,6 @@ def build_room_crossing(
     Returns:
         The diagram, its default context where the robot starts.
     """
-    scenario = with_clutter(scenario)
     params = scenario.parameters
     robot = ROBOTS[scenario.robot.name]
     builder = DiagramBuilder()

@@ -7,11 +7,13 @@ from dataclasses import dataclass, field, replace
 from importlib import resources
 from pathlib import Path
 
+import numpy as np
 from pydrake.common.yaml import yaml_dump, yaml_dump_typed, yaml_load_typed
 
 from diagrams.schema import FieldError, Mapping, check, parse_yaml, set_field, validate
 from models.jvrc1 import JVRC1
 from models.robot import RobotModel
+from models.room_obstacles import place_boxes
 from models.scene import SceneParams
 from models.solids import upright_pose
 from models.staircase import StaircaseParams
@@ -302,12 +304,34 @@ def load_scenario(name_or_path: str | Path, overrides: Sequence[str] = ()) -> Sc
             data=yaml_dump(data),  # type: ignore[no-untyped-call]
         )
         validate(scenario)
+        scenario = place_clutter(scenario)
     except FieldError as error:
         for key, override in applied:
             if _concerns(error.path, key):
                 label = f"{label} with --set {override}"
         raise ScenarioError(f"{label}: {error}") from None
     return scenario
+
+
+def place_clutter(scenario: Scenario) -> Scenario:
+    """The scenario with the boxes of its clutter in place, drawn with the run's seed.
+
+    Raises:
+        FieldError: there is no room for them.
+    """
+    clutter = scenario.scene.clutter
+    if clutter is None:
+        return scenario
+    start, goal = scenario.robot, scenario.task.goal
+    try:
+        boxes = place_boxes(
+            replace(clutter, seed=clutter.seed + scenario.simulation.seed),
+            np.array([[start.x, start.y], goal[:2]]),
+        )
+    except ValueError as error:
+        raise FieldError("scene.clutter", str(error)) from None
+    scene = replace(scenario.scene, boxes=[*scenario.scene.boxes, *boxes], clutter=None)
+    return replace(scenario, scene=scene)
 
 
 def save_scenario(scenario: Scenario, path: str | Path) -> None:
