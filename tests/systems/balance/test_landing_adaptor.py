@@ -1,0 +1,260 @@
+"""Touch-down is felt: early, late, never; and what the references do meanwhile."""
+
+import numpy as np
+import pytest
+from pydrake.systems.analysis import Simulator
+from pydrake.systems.framework import Context
+
+from systems.balance.landing_adaptor import (
+    FootState,
+    LandingAdaptor,
+    LandingParams,
+    adapt,
+    standing,
+)
+from systems.ports import Vector, eval_vector
+
+PARAMS = LandingParams()
+T = PARAMS.period
+STILL = np.zeros(6)
+GROUND = np.array([0.3, 0.1, 0.2, 0.0, 0.0, 0.1])
+DOWN = np.array([0.0, 0.0, -0.2, 0.0, 0.0, 0.0])
+
+
+def tick(
+    state: FootState,
+    planned: Vector = GROUND,
+    rate: Vector = STILL,
+    contact: bool = True,
+    force: float = 300.0,
+    measured: Vector | None = None,
+) -> tuple[FootState, Vector, Vector]:
+    """One tick; a foot is by default where it is planned, on the ground."""
+    measured = planned if measured is None else measured
+    return adapt(state, planned, rate, contact, force, measured, PARAMS)
+
+
+def in_the_air(state: FootState, time: float, **inputs: object) -> FootState:
+    """The state after that long in the air without feeling anything."""
+    for _ in range(round(time / T)):
+        state, _, _ = tick(state, contact=False, **({"force": 0.0} | inputs))
+    return state
+
+
+def test_standing_feet_follow_the_plan() -> None:
+    """The pose as it is planned; sag that is measured is no reason to move."""
+    state, pose, rate = tick(standing(), measured=GROUND + 0.003)
+    np.testing.assert_array_equal(pose, GROUND)
+    np.testing.assert_array_equal(rate, STILL)
+    assert state.landed
+    assert state.lifted_for == 0.0
+
+
+def test_touch_down_on_time() -> None:
+    """The reference stays where the foot met the ground, flat."""
+    state = in_the_air(standing(), 0.5, rate=DOWN)
+    assert not state.landed
+    measured = GROUND + np.array([0.004, -0.002, 0.001, 0.02, -0.03, 0.01])
+    state, pose, _ = tick(state, measured=measured)
+    assert state.landed
+    np.testing.assert_allclose(pose, [*measured[:3], 0.0, 0.0, measured[5]])
+    for _ in range(50):
+        state, pose, rate = tick(state, measured=measured - 0.002)
+    np.testing.assert_allclose(pose, [*measured[:3], 0.0, 0.0, measured[5]])
+    np.testing.assert_array_equal(rate, STILL)
+
+
+def test_early_touch_down_holds_the_foot() -> None:
+    """From the first tick that feels it, through the rest of the planned swing."""
+    state = in_the_air(standing(), 0.5, rate=DOWN)
+    higher = GROUND + np.array([0, 0, 0.03, 0.01, -0.02, 0])
+    state, pose, rate = tick(
+        state, higher + np.array([0, 0, 0.005, 0, 0, 0]), DOWN, False, 40.0, higher
+    )
+    assert state.landed
+    flat = np.array([*higher[:3], 0.0, 0.0, higher[5]])
+    np.testing.assert_allclose(pose, flat)
+    np.testing.assert_array_equal(rate, STILL)
+    for planned in np.linspace(higher, GROUND, 5):
+        state, pose, rate = tick(state, planned, DOWN, False, 200.0, higher)
+        np.testing.assert_allclose(pose, flat)
+        np.testing.assert_array_equal(rate, STILL)
+    state, pose, _ = tick(state, GROUND, STILL, True, 300.0, higher)
+    np.testing.assert_allclose(pose, flat)
+
+
+@pytest.mark.parametrize(
+    ("time", "rate", "force"),
+    [(0.2, DOWN, 100.0), (0.5, -DOWN, 100.0), (0.5, DOWN, 14.0)],
+    ids=["just lifted", "going up", "too little force"],
+)
+def test_what_is_no_touch_down(time: float, rate: Vector, force: float) -> None:
+    """A foot that still leaves the ground, that rises, or that feels noise."""
+    state = in_the_air(standing(), time, rate=rate)
+    state, _, after = tick(state, GROUND, rate, False, force)
+    assert not state.landed
+    np.testing.assert_array_equal(after, rate)
+
+
+def test_late_touch_down_searches_for_the_ground() -> None:
+    """Straight down at the search speed, until it is felt."""
+    state = in_the_air(standing(), 0.5)
+    heights = []
+    for _ in range(40):
+        state, pose, rate = tick(state, force=0.0)
+        heights.append(pose[2])
+        assert rate[2] == -PARAMS.search_speed
+    np.testing.assert_allclose(np.diff(heights), -PARAMS.search_speed * T)
+    assert heights[0] == pytest.approx(GROUND[2] - PARAMS.search_speed * T)
+    np.testing.assert_allclose(pose[[0, 1, 3, 4, 5]], GROUND[[0, 1, 3, 4, 5]])
+    assert not state.landed
+    lower = GROUND - np.array([0, 0, 0.019, 0, 0, 0])
+    state, pose, rate = tick(state, force=60.0, measured=lower)
+    assert state.landed
+    np.testing.assert_allclose(pose, lower)
+    np.testing.assert_array_equal(rate, STILL)
+
+
+def test_search_ends_at_its_depth() -> None:
+    """A foot over a hole is taken for landed there, not sunk for ever."""
+    state = in_the_air(standing(), 0.5)
+    for _ in range(200):
+        sunk = GROUND + np.array([0, 0, state.offset[2], 0, 0, 0])
+        state, pose, _ = tick(state, force=0.0, measured=sunk)
+    assert state.landed
+    depth = GROUND[2] - pose[2]
+    assert PARAMS.search_depth <= depth <= PARAMS.search_depth + 0.1 * T + 1e-9
+
+
+def test_a_lifted_foot_returns_to_its_plan() -> None:
+    """From where it stood, exponentially; the reference does not jump at lift-off."""
+    state = in_the_air(standing(), 0.5)
+    measured = GROUND + np.array([0.01, 0, -0.02, 0, 0, 0])
+    state, before, _ = tick(state, measured=measured)
+    state, pose, _ = tick(state, contact=False, force=0.0)
+    jump = np.abs(pose - before).max()
+    assert jump <= 0.02 * T / PARAMS.release_time + 1e-12
+    for _ in range(round(PARAMS.release_time / T) - 1):
+        state, pose, _ = tick(state, contact=False, force=0.0)
+    assert pose[2] - GROUND[2] == pytest.approx(-0.02 * np.exp(-1.0), rel=0.05)
+    for _ in range(round(0.5 / T)):
+        state, pose, _ = tick(state, contact=False, force=0.0)
+    np.testing.assert_allclose(pose, GROUND, atol=1e-4)
+
+
+def test_sag_in_the_air_is_made_up_for() -> None:
+    """A foot that hangs below its reference by a spring comes to its plan."""
+    state, sag = standing(), np.array([0.0, 0.0, -0.01, 0.0, 0.02, 0.0])
+    pose = GROUND
+    for _ in range(round(0.6 / T)):
+        state, pose, _ = tick(state, contact=False, force=0.0, measured=pose + sag)
+    np.testing.assert_allclose(pose + sag, GROUND, atol=1e-4)
+
+
+def test_sag_is_bounded() -> None:
+    """A leg that is stuck does not wind the reference up."""
+    state = in_the_air(standing(), 2.0, measured=GROUND - 1.0)
+    np.testing.assert_allclose(state.sag, PARAMS.swing_limit)
+    state = in_the_air(standing(), 2.0, measured=GROUND + 1.0)
+    np.testing.assert_allclose(state.sag, -PARAMS.swing_limit)
+
+
+def make() -> tuple[LandingAdaptor, Context]:
+    """The system, both feet standing on a plan that began at 0."""
+    poses = np.concatenate([GROUND, GROUND - np.array([0, 0.2, 0, 0, 0, 0])])
+    system = LandingAdaptor(PARAMS, poses)
+    context = system.CreateDefaultContext()
+    wrenches = np.zeros(12)
+    wrenches[[2, 8]] = 300.0
+    for name, value in (
+        ("foot_references", np.concatenate([poses, np.zeros(12)])),
+        ("contacts", [1.0, 1.0, 0.225, 0.1]),
+        ("plan_start", [0.0]),
+        ("foot_wrenches", wrenches),
+        ("foot_poses", poses),
+    ):
+        system.GetInputPort(name).FixValue(context, value)
+    return system, context
+
+
+def output(system: LandingAdaptor, context: Context, name: str) -> Vector:
+    """A port's value."""
+    return eval_vector(system.GetOutputPort(name), context)
+
+
+def test_default_context_stands() -> None:
+    """Before the first tick: the poses that were given, both feet on the ground."""
+    system, context = make()
+    references = output(system, context, "foot_references")
+    np.testing.assert_array_equal(references[:6], GROUND)
+    assert not references[12:].any()
+    assert output(system, context, "contacts")[:2].tolist() == [1.0, 1.0]
+
+
+def test_shell_adapts_each_foot_on_its_own() -> None:
+    """The left one lands where it is; the right one stands on."""
+    system, context = make()
+    simulator = Simulator(system, context)
+    system.GetInputPort("contacts").FixValue(context, [0.0, 1.0, 0.225, 0.1])
+    wrenches = np.zeros(12)
+    wrenches[8] = 600.0
+    system.GetInputPort("foot_wrenches").FixValue(context, wrenches)
+    simulator.AdvanceTo(0.501)
+    assert output(system, context, "contacts").tolist() == [0.0, 1.0, 0.225, 0.1]
+    system.GetInputPort("contacts").FixValue(context, [1.0, 1.0, 0.225, 0.1])
+    simulator.AdvanceTo(0.551)
+    assert output(system, context, "contacts")[0] == 0.0
+    references = output(system, context, "foot_references")
+    assert references[2] < GROUND[2] - 0.003
+    assert references[14] == -PARAMS.search_speed
+    wrenches[2] = 100.0
+    system.GetInputPort("foot_wrenches").FixValue(context, wrenches)
+    simulator.AdvanceTo(0.561)
+    assert output(system, context, "contacts").tolist() == [1.0, 1.0, 0.225, 0.1]
+    right = GROUND - np.array([0, 0.2, 0, 0, 0, 0])
+    np.testing.assert_array_equal(
+        output(system, context, "foot_references")[6:12], right
+    )
+
+
+def test_a_new_plan_begins_at_the_references() -> None:
+    """What was remembered of the ground is in the new plan already."""
+    system, context = make()
+    simulator = Simulator(system, context)
+    lifted = [0.0, 1.0, 0.225, 0.225]
+    system.GetInputPort("contacts").FixValue(context, lifted)
+    system.GetInputPort("foot_wrenches").FixValue(context, np.zeros(12))
+    simulator.AdvanceTo(0.501)
+    poses = np.concatenate([GROUND, GROUND])
+    poses[2] -= 0.01
+    wrenches = np.zeros(12)
+    wrenches[2] = 300.0
+    system.GetInputPort("contacts").FixValue(context, [1.0, 1.0, 0.225, 0.225])
+    system.GetInputPort("foot_wrenches").FixValue(context, wrenches)
+    system.GetInputPort("foot_poses").FixValue(context, poses)
+    simulator.AdvanceTo(0.511)
+    adapted = output(system, context, "foot_references")
+    assert adapted[2] == pytest.approx(GROUND[2] - 0.01)
+    system.GetInputPort("foot_references").FixValue(context, adapted)
+    system.GetInputPort("plan_start").FixValue(context, [0.511])
+    simulator.AdvanceTo(0.531)
+    np.testing.assert_allclose(output(system, context, "foot_references"), adapted)
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("period", 0.0),
+        ("touch_force", -1.0),
+        ("search_speed", np.inf),
+        ("release_time", 0.0),
+        ("blind_time", -0.1),
+        ("search_depth", np.nan),
+        ("swing_gain", -1.0),
+        ("swing_limit", -1.0),
+    ],
+)
+def test_parameters_out_of_range_are_refused(field: str, value: float) -> None:
+    """By name."""
+    with pytest.raises(ValueError, match=rf"^{field}: must"):
+        LandingAdaptor(LandingParams(**{field: value}), np.zeros(12))
