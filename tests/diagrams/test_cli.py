@@ -95,6 +95,15 @@ def test_a_task_that_was_not_done_is_status_1(stand, tmp_path) -> None:
     assert load_run(tmp_path / "out").summary["reason"] == "too high"
 
 
+def test_the_reason_stays_one_line_as_it_is(stand, tmp_path) -> None:
+    """However long, brackets and all; nothing else is said where no terminal is."""
+    reason = " and ".join(f"boxes[{number}] is in the way" for number in range(9))
+    sys.modules["diagrams.tasks"].last = TaskStatus("infeasible", "plan", reason)
+    result = footfall("run", stand, "--out", tmp_path / "out")
+    assert result.stdout.splitlines()[0] == f"infeasible: {reason}"
+    assert result.stderr == ""
+
+
 @pytest.mark.parametrize(
     ("arguments", "names"),
     [
@@ -109,6 +118,10 @@ def test_a_task_that_was_not_done_is_status_1(stand, tmp_path) -> None:
         (("segment", "x.pcd", "--gravity", "0,0"), ("--gravity", "'0,0'")),
         (("segment", "x.pcd", "--gravity", "0,0,0"), ("--gravity",)),
         (("run", "stairs-exp1", "--out", "."), ("--out .", "not an empty folder")),
+        (
+            ("run", "stairs-exp1", "--out", "standing.yaml/x"),
+            ("--out standing.yaml/x", "cannot be written"),
+        ),
     ],
 )
 def test_bad_input_is_one_line_and_status_2(stand, arguments, names) -> None:
