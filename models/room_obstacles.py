@@ -86,8 +86,8 @@ def place_boxes(params: ClutterParams, clear: Vector) -> list[BoxParams]:
         p, yaw = rng.uniform(low, high), rng.uniform(-np.pi, np.pi)
         radius = float(np.linalg.norm(sides)) / 2.0
         apart = all(
-            np.hypot(box.x - p[0], box.y - p[1])
-            > radius + np.hypot(*box.size[:2]) / 2.0 + params.gap
+            float(np.hypot(box.x - p[0], box.y - p[1]))
+            > radius + np.hypot(box.size[0], box.size[1]) / 2.0 + params.gap
             for box in boxes
         )
         away = np.linalg.norm(clear - p, axis=1)

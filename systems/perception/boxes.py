@@ -24,6 +24,12 @@ MOST_JUDGES = 400
 MIN_TOP = 12
 """Fewer points make no top; then all points of the cluster bound the box."""
 
+FLATNESS = 0.02
+"""How much larger than the least a rectangle nearly as good may be."""
+YAW_TAIL = 0.25
+"""Part of the tail that is left out to find the yaw: a side that is cut off by more
+turns too far before its rectangle grows."""
+
 
 @dataclass(kw_only=True)
 class ObstacleClustererParams:
@@ -165,9 +171,11 @@ def even_rectangle(plan: Vector, tail: float) -> tuple[Vector, float, Vector]:
         lengths, (2,), m.
     """
     judges = plan[:: max(1, len(plan) // MOST_JUDGES)]
-    angle, _, _ = _least(judges, np.radians(np.arange(-45.0, 45.0, 3.0)), tail)
-    finer = angle + np.radians(np.arange(-3.0, 3.1, 0.5))
-    angle, low, high = _least(plan, finer, tail)
+    coarse = np.radians(np.arange(-45.0, 45.0, 3.0))
+    angle = _least_angle(judges, coarse, YAW_TAIL * tail)
+    finer = angle + np.radians(np.arange(-4.0, 4.1, 0.5))
+    angle = _least_angle(plan, finer, YAW_TAIL * tail)
+    (low,), (high,) = _spans(plan, np.array([angle]), tail)
     c, s = np.cos(angle), np.sin(angle)
     x, y = (low + high) / 2.0
     middle = np.array([x * c - y * s, x * s + y * c])
@@ -176,11 +184,19 @@ def even_rectangle(plan: Vector, tail: float) -> tuple[Vector, float, Vector]:
     return middle, float(angle - quarters * np.pi / 2.0), extent
 
 
-def _least(plan: Vector, angles: Vector, tail: float) -> tuple[float, Vector, Vector]:
-    """The angle, (m,), whose rectangle is least, and its ends along its axes, (2,)."""
+def _least_angle(plan: Vector, angles: Vector, tail: float) -> float:
+    """The angle, of (m,), rad, whose rectangle is least.
+
+    About the true angle the area hardly changes as long as a turn moves the sides by
+    less than the tails, so the middle of all angles that are nearly as good counts.
+    """
     low, high = _spans(plan, angles, tail)
-    best = int(np.argmin(np.prod(high - low, axis=1)))
-    return float(angles[best]), low[best], high[best]
+    area = np.prod(high - low, axis=1)
+    good = angles[area <= (1.0 + FLATNESS) * area.min()]
+    best = float(angles[np.argmin(area)])
+    # The angles repeat after a quarter turn.
+    near = (good - best + np.pi / 4.0) % (np.pi / 2.0) - np.pi / 4.0
+    return best + float(near.mean())
 
 
 def _spans(plan: Vector, angles: Vector, tail: float) -> tuple[Vector, Vector]:

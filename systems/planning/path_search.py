@@ -58,8 +58,8 @@ def plan_path(
     if space.part_of(start) is None:
         inner = region.buffer(-INWARD)
         if not inner.is_empty:
-            nearest = shapely.ops.nearest_points(inner, shapely.Point(start))[0]
-            lead, origin = start[None, :], np.array([nearest.x, nearest.y])
+            way = shapely.shortest_line(shapely.Point(start), inner)
+            lead, origin = start[None, :], shapely.get_coordinates(way)[1]
         bare = free_space(outline, environment.boxes, params.footprint_radius)
         if inner.is_empty or not bare.holds(np.vstack([start, origin])):
             reason = "no path exists: the boxes leave no way out of the start"
