@@ -6,6 +6,7 @@ The cache of these tests is a folder of their own, converted once.
 import dataclasses
 import os
 import xml.etree.ElementTree as ET
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -45,13 +46,16 @@ class Loaded:
 
 
 @pytest.fixture(scope="module")
-def robot() -> Loaded:
-    """Loaded once, through the user's cache."""
-    plant, scene_graph = MultibodyPlant(0.0), SceneGraph()
-    plant.RegisterAsSourceForSceneGraph(scene_graph)
-    instance = add_robot(plant, scene_graph, JVRC1)
-    plant.Finalize()
-    return Loaded(plant, scene_graph, instance)
+def robot(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Loaded]:
+    """Loaded once; its meshes were converted just now, not by an older program."""
+    folder = tmp_path_factory.mktemp("cache")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(robot_loader, "user_cache_path", lambda _: folder)
+        plant, scene_graph = MultibodyPlant(0.0), SceneGraph()
+        plant.RegisterAsSourceForSceneGraph(scene_graph)
+        instance = add_robot(plant, scene_graph, JVRC1)
+        plant.Finalize()
+        yield Loaded(plant, scene_graph, instance)
 
 
 @pytest.fixture
