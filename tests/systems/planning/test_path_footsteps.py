@@ -182,6 +182,15 @@ def test_feet_out_of_reach_are_refused() -> None:
     assert "beside the other" in plan.reason
 
 
+def test_a_foot_does_not_pass_over_the_other() -> None:
+    """Feet that stand crossed are not uncrossed through each other."""
+    left, right = RigidTransform([-0.3, -0.3, 0.0]), RigidTransform([0.0, -0.095, 0.0])
+    path = PathPlan(np.array([[-0.15, -0.2], [1.0, 0.0]]), 0.0, "planned")
+    open_floor = Environment(floor())
+    plan = plan_path_footsteps(path, open_floor, left, right, PARAMS, SOLE)
+    assert (plan.status, plan.footsteps) == ("infeasible", ())
+
+
 @pytest.mark.parametrize("max_turn", [0.1, 0.4])
 def test_limits_come_from_the_parameters(max_turn: float) -> None:
     """A robot that turns less takes more steps."""

@@ -117,6 +117,18 @@ def test_effort_bounds_every_step() -> None:
     assert np.abs(move[:, 2]).max() <= 0.25 + 1e-9
 
 
+def test_effort_of_turning_while_going() -> None:
+    """On an arc the foot set down inward has the least room, and decides."""
+    yaw = np.linspace(0.0, 0.5, 200)
+    arc = np.column_stack([2.0 * np.sin(yaw), 2.0 - 2.0 * np.cos(yaw), yaw])
+    effort = walk_effort(arc, REACH, WIDTH)[-1]
+    outer = (2.0 + WIDTH / 2.0) * 0.5 / REACH.forward
+    inward = (REACH.turn_narrows + REACH.forward / 2.0) * 0.5 / REACH.sideways
+    assert effort == pytest.approx(max(outer, inward), rel=1e-4)
+    tight = np.column_stack([0.5 * np.sin(yaw), 0.5 - 0.5 * np.cos(yaw), yaw])
+    assert walk_effort(tight, REACH, WIDTH)[-1] == pytest.approx(inward, rel=1e-4)
+
+
 def test_no_way_to_go_is_a_turn() -> None:
     """A path of one place is turned on."""
     curve, effort = walk_curve(np.zeros((2, 2)), 0.0, 1.0, REACH, WIDTH)
