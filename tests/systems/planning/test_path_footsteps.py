@@ -185,10 +185,13 @@ def test_feet_out_of_reach_are_refused() -> None:
 def test_a_foot_does_not_pass_over_the_other() -> None:
     """Feet that stand crossed are not uncrossed through each other."""
     left, right = RigidTransform([-0.3, -0.3, 0.0]), RigidTransform([0.0, -0.095, 0.0])
-    path = PathPlan(np.array([[-0.15, -0.2], [1.0, 0.0]]), 0.0, "planned")
+    path = PathPlan(np.array([[0.0, 0.0], [1.0, 0.0]]), 0.0, "planned")
     open_floor = Environment(floor())
     plan = plan_path_footsteps(path, open_floor, left, right, PARAMS, SOLE)
     assert (plan.status, plan.footsteps) == ("infeasible", ())
+    beside = RigidTransform([-0.1, 0.095, 0.0])
+    plan = plan_path_footsteps(path, open_floor, beside, right, PARAMS, SOLE)
+    assert plan.status == "planned"
 
 
 @pytest.mark.parametrize("max_turn", [0.1, 0.4])
