@@ -1,0 +1,178 @@
+"""The executive: settle, scan, plan, move, and again, until nothing is left."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from pydrake.common.value import AbstractValue
+from pydrake.systems.analysis import Simulator
+from pydrake.systems.framework import Context
+
+from systems.planning.executive import Decision, Executive, ExecutiveParams, decide
+from systems.ports import eval_vector
+from systems.values import FootstepPlan, MotionPlan, TaskStatus
+
+PARAMS = ExecutiveParams(period=0.025, settle_time=0.29)
+PLANNED = FootstepPlan(status="planned")
+
+
+def motion(duration: float = 1.0, start_time: float = 0.0) -> MotionPlan:
+    """A plan of that duration in which nothing happens."""
+    n = round(duration / 0.005) + 1
+    rows = np.zeros((n, 3))
+    return MotionPlan(
+        start_time=start_time,
+        period=0.005,
+        footsteps=(),
+        phases=(),
+        contacts=np.ones((n, 2)),
+        foot_poses=np.zeros((n, 2, 6)),
+        contact_lengths=np.ones((n, 2)),
+        com=rows,
+        com_velocity=rows,
+        com_acceleration=rows,
+        zmp=rows,
+        cart_zmp=np.zeros((n, 2)),
+        waist=rows,
+    )
+
+
+STAND = motion(0.0)
+
+
+def refuse() -> MotionPlan:
+    """Stands in for a planner that must not be asked."""
+    raise AssertionError("asked for a plan that is not needed")
+
+
+def decided(
+    before: Decision,
+    time: float,
+    sweeps: int = 0,
+    footsteps: FootstepPlan | None = None,
+    plan: Callable[[], MotionPlan] = refuse,
+) -> Decision:
+    """One decision; planners that are not given must not be asked."""
+    return decide(
+        before,
+        time,
+        sweeps,
+        lambda: footsteps if footsteps is not None else refuse(),  # type: ignore
+        plan,
+        PARAMS,
+    )
+
+
+def test_settles_before_the_scan() -> None:
+    """For the settling time; until then the decision is the very same."""
+    start = Decision(STAND)
+    assert decided(start, 0.28) is start
+    scan = decided(start, 0.3)
+    assert (scan.activity, scan.since) == ("scan", 0.3)
+    assert scan.status == TaskStatus("running", "scan")
+    later = Decision(STAND, since=5.0)
+    assert decided(later, 5.2) is later
+    assert decided(later, 5.3).activity == "scan"
+
+
+def test_scans_until_a_new_sweep_is_worked_in() -> None:
+    """An old one does not count."""
+    scan = Decision(STAND, activity="scan", sweeps=2)
+    assert decided(scan, 9.0, sweeps=2) is scan
+
+
+def test_moves_along_what_was_planned() -> None:
+    """From now on, whatever time the planner counts from."""
+    scan = Decision(STAND, activity="scan", sweeps=2)
+    move = decided(scan, 9.0, 3, PLANNED, motion)
+    assert (move.activity, move.since, move.sweeps) == ("move", 9.0, 3)
+    assert move.motion_plan == motion(start_time=9.0)
+    assert move.footstep_plan is PLANNED
+    assert move.status == TaskStatus("running", "move")
+
+
+def test_settles_again_when_the_motion_is_over() -> None:
+    """Not before its last row; the plan goes on being held."""
+    move = Decision(motion(1.0, start_time=9.0), activity="move", since=9.0, sweeps=3)
+    assert decided(move, 9.99, sweeps=4) is move
+    settle = decided(move, 10.0, sweeps=4)
+    assert (settle.activity, settle.since) == ("settle", 10.0)
+    assert settle.motion_plan is move.motion_plan
+    assert settle.sweeps == 3
+
+
+@pytest.mark.parametrize(
+    "footsteps",
+    [FootstepPlan(), FootstepPlan(status="infeasible", reason="a 40 cm rise")],
+)
+def test_stands_where_nothing_is_left_to_do(footsteps: FootstepPlan) -> None:
+    """With the planner's status and reason; the last motion is held for ever."""
+    scan = Decision(motion(1.0, 3.0), activity="scan", sweeps=1)
+    stand = decided(scan, 9.0, 2, footsteps)
+    assert stand.activity == "stand"
+    assert stand.status == TaskStatus(footsteps.status, "stand", footsteps.reason)
+    assert stand.motion_plan is scan.motion_plan
+    assert decided(stand, 99.0, 9) is stand
+
+
+def make() -> tuple[Executive, Context]:
+    """The system on a world that always has a further motion of 0.2 s."""
+    system = Executive(PARAMS, STAND)
+    context = system.CreateDefaultContext()
+    system.GetInputPort("sweep").FixValue(context, [0.0])
+    system.GetInputPort("footstep_plan").FixValue(context, AbstractValue.Make(PLANNED))
+    system.GetInputPort("motion_plan").FixValue(
+        context, AbstractValue.Make(motion(0.2))
+    )
+    return system, context
+
+
+def output(system: Executive, context: Context, name: str) -> object:
+    """An abstract port's value."""
+    return system.GetOutputPort(name).Eval(context)
+
+
+def test_default_context_stands() -> None:
+    """Nothing is scanned yet."""
+    system, context = make()
+    assert output(system, context, "motion_plan") == STAND
+    assert output(system, context, "status") == TaskStatus()
+    assert eval_vector(system.GetOutputPort("scan"), context)[0] == 0.0
+
+
+def test_a_round_of_scan_and_motion() -> None:
+    """As the ports tell it; the scanner sweeps only while it is to."""
+    system, context = make()
+    simulator = Simulator(system, context)
+    scan, seen = system.GetOutputPort("scan"), []
+    for step in range(1, 60):
+        if step == 30:
+            system.GetInputPort("sweep").FixValue(context, [1.0])
+        simulator.AdvanceTo(0.025 * step + 0.001)
+        status = output(system, context, "status")
+        assert isinstance(status, TaskStatus)
+        activity, on = status.activity, eval_vector(scan, context)[0]
+        assert on == (activity == "scan")
+        if not seen or seen[-1][0] != activity:
+            seen.append((activity, round(context.get_time() - 0.001, 3)))
+    assert seen == [
+        ("", 0.025),
+        ("scan", 0.3),
+        ("move", 0.75),
+        ("settle", 0.95),
+        ("scan", 1.25),
+    ]
+    plan = output(system, context, "motion_plan")
+    assert plan == replace(motion(0.2), start_time=pytest.approx(0.75))
+    assert output(system, context, "footstep_plan") == PLANNED
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [("period", 0.0), ("period", np.nan), ("settle_time", -0.1)],
+)
+def test_parameters_out_of_range_are_refused(field: str, value: float) -> None:
+    """By name."""
+    with pytest.raises(ValueError, match=rf"^{field}: must .*, got {value}"):
+        Executive(ExecutiveParams(**{field: value}), STAND)
