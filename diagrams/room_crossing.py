@@ -9,7 +9,7 @@ from pydrake.systems.framework import DiagramBuilder
 from pydrake.systems.primitives import ConstantValueSource, ConstantVectorSource
 
 from diagrams.scenario import ROBOTS, Scenario
-from diagrams.station import add_station
+from diagrams.station import add_station, mover_meshes
 from diagrams.task_diagram import TaskDiagram
 from diagrams.walking import add_walking, initial_stand
 from diagrams.walking_signals import VALUE_PERIOD, record_walking
@@ -72,7 +72,7 @@ def build_room_crossing(
         DepthCamera(
             dataclasses.replace(lens, seed=lens.seed + scenario.simulation.seed),
             scene=triangle_mesh(scenario.scene.solids()),
-            body_meshes=meshes,
+            body_meshes=[*meshes, *mover_meshes(scenario, plant)],
         ),
     )
     builder.Connect(

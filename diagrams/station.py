@@ -1,5 +1,6 @@
 """The robot in its scene: plant, joint servos, sensors and what pushes it."""
 
+import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -17,9 +18,11 @@ from pydrake.systems.primitives import ZeroOrderHold
 
 from diagrams.scenario import Scenario
 from diagrams.wiring import add_system
+from models.mover import add_movers
 from models.robot import RobotModel
 from models.robot_loader import add_robot, body_meshes, is_sole
 from models.solids import add_solids, triangle_mesh
+from systems.disturbance.box_mover import BoxMotion, BoxMover
 from systems.disturbance.pusher import Push, Pusher
 from systems.perception.scan_assembler import ScanAssembler, box_around
 from systems.ports import Vector
@@ -98,7 +101,14 @@ def add_station(
     scene_graph.set_name("scene_graph")
     instance = add_robot(plant, scene_graph, robot)
     add_solids(plant, scenario.scene.solids())
+    movers = add_movers(plant, scenario.scene.movers)
     plant.Finalize()
+    if scenario.scene.movers:
+        mover = add_system(builder, "box_mover", BoxMover(_motions(scenario)))
+        builder.Connect(
+            mover.GetOutputPort("desired_state"),
+            plant.get_desired_state_input_port(movers),
+        )
 
     torque = add_system(
         builder, "torque_hold", ZeroOrderHold(period, plant.num_actuators(instance))
@@ -158,6 +168,24 @@ def add_station(
         wrench_sensor,
         contact_monitor,
     )
+
+
+def _motions(scenario: Scenario) -> list[BoxMotion]:
+    return [
+        BoxMotion((box.x, box.y), (box.to_x, box.to_y), box.time, box.duration)
+        for box in scenario.scene.movers
+    ]
+
+
+def mover_meshes(scenario: Scenario, plant: MultibodyPlant) -> list[BodyMesh]:
+    """What a camera sees of the boxes that move."""
+    meshes = []
+    for box in scenario.scene.movers:
+        still = dataclasses.replace(box, x=0.0, y=0.0)
+        mesh = triangle_mesh([still.solid()])
+        body = plant.GetBodyByName(f"mover_{box.name}")
+        meshes.append(BodyMesh(int(body.index()), mesh.vertices, mesh.triangles))
+    return meshes
 
 
 def add_lidar(

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from models.mover import MoverParams
 from models.obstacle import BoxParams
 from models.room import RoomParams
 from models.room_obstacles import ClutterParams
@@ -14,7 +15,7 @@ from systems.ports import Vector
 
 @dataclass(kw_only=True)
 class SceneParams:
-    """Everything around the robot; none of it moves."""
+    """Everything around the robot."""
 
     room: RoomParams = field(default_factory=RoomParams)
     """The room; its floor is the ground z = 0."""
@@ -22,6 +23,8 @@ class SceneParams:
     """The staircase, where there is one."""
     boxes: list[BoxParams] = field(default_factory=list)
     """Obstacles and clutter."""
+    movers: list[MoverParams] = field(default_factory=list)
+    """Boxes that move."""
     clutter: ClutterParams | None = None
     """More boxes at places drawn at random, where there are to be any."""
 
@@ -32,7 +35,7 @@ class SceneParams:
             ValueError: two boxes have the same name, or the staircase does not fit
                 into the room.
         """
-        names = [box.name for box in self.boxes]
+        names = [box.name for box in (*self.boxes, *self.movers)]
         for index, name in enumerate(names):
             if name in names[:index]:
                 raise ValueError(

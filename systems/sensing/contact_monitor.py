@@ -8,7 +8,7 @@ import numpy as np
 from pydrake.common.value import AbstractValue, Value
 from pydrake.geometry import GeometryId, SceneGraphInspector
 from pydrake.multibody.plant import ContactResults, MultibodyPlant
-from pydrake.multibody.tree import ModelInstanceIndex
+from pydrake.multibody.tree import BodyIndex, ModelInstanceIndex
 from pydrake.systems.framework import (
     BasicVector,
     Context,
@@ -78,11 +78,15 @@ def watched_geometry(
             bodies.append(body.name())
     solids: list[str] = []
     solid_of: dict[GeometryId, int] = {}
-    for geometry in plant.GetCollisionGeometriesForBody(plant.world_body()):
-        name = inspector.GetName(geometry).rpartition("::")[2]
-        if name.startswith(solid_prefix):
-            solid_of[geometry] = len(solids)
-            solids.append(name)
+    for number in range(plant.num_bodies()):
+        body = plant.get_body(BodyIndex(number))
+        if body.model_instance() == robot:
+            continue
+        for geometry in plant.GetCollisionGeometriesForBody(body):
+            name = inspector.GetName(geometry).rpartition("::")[2]
+            if name.startswith(solid_prefix):
+                solid_of[geometry] = len(solids)
+                solids.append(name)
     return WatchedGeometry(tuple(bodies), tuple(solids), body_of, solid_of)
 
 
