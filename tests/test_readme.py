@@ -1,9 +1,15 @@
 """What the README shows runs as it stands there."""
 
+import dataclasses
 import re
 from pathlib import Path
 
 import pytest
+
+from diagrams.block_diagram import topology
+from diagrams.scenario import list_scenarios, load_scenario
+from diagrams.summary import Summary
+from diagrams.tasks import build_task
 
 README = Path(__file__).resolve().parents[1] / "README.md"
 TEXT = README.read_text(encoding="utf-8")
@@ -23,6 +29,36 @@ def test_snippets_run(snippet: str, capsys: pytest.CaptureFixture[str]) -> None:
     said = re.findall(r"^#> (.*)$", snippet, flags=re.MULTILINE)
     assert said
     assert capsys.readouterr().out.splitlines() == said
+
+
+def test_every_figure_of_the_summary_is_explained() -> None:
+    """Whoever adds a field says in the README what it is."""
+    obvious = {"scenario", "seed"}
+    fields = {item.name for item in dataclasses.fields(Summary)} - obvious
+    named = {name for name in fields if not name.endswith("_joint")}
+    assert {name for name in named if f"`{name}`" not in TEXT} == set()
+
+
+def test_every_scenario_is_listed() -> None:
+    """With what the robot is to do in it."""
+    names = {name for name, _ in list_scenarios()}
+    assert {name for name in names if f"| `{name}` |" not in TEXT} == set()
+
+
+def test_the_scenario_that_is_shown_can_be_used(tmp_path: Path) -> None:
+    """A whole scenario, as the README says."""
+    (text,) = re.findall(r"^```yaml\n(.*?)^```", TEXT, flags=re.MULTILINE | re.DOTALL)
+    path = tmp_path / "mine.yaml"
+    path.write_text(text, encoding="utf-8")
+    assert load_scenario(path).scene.treads()
+
+
+def test_the_block_diagram_is_the_present_one() -> None:
+    """`footfall diagram stairs-exp1 --out notebooks/images/diagram.svg` renews it."""
+    picture = (README.parent / "notebooks/images/diagram.svg").read_text("utf-8")
+    drawn = set(re.findall(r'class="node">\s*<title>(.*?)</title>', picture))
+    blocks, _ = topology(build_task(load_scenario("stairs-exp1")).diagram)
+    assert drawn == {block.name for block in blocks}
 
 
 @pytest.mark.parametrize("link", sorted(set(LINKS)))
