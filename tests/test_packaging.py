@@ -47,6 +47,16 @@ def test_types_are_shipped() -> None:
         assert (ROOT / name / "py.typed").is_file(), name
 
 
+def test_every_kind_of_data_file_exists() -> None:
+    """A pattern that matches nothing is left over, or misspelt."""
+    data = PROJECT["tool"]["setuptools"]["package-data"]
+    for package, patterns in data.items():
+        folder = ROOT if package == "*" else ROOT / package.replace(".", "/")
+        for pattern in patterns:
+            found = folder.rglob(pattern) if package == "*" else folder.glob(pattern)
+            assert any(found), (package, pattern)
+
+
 def test_every_scenario_is_shipped() -> None:
     """They are data files, which setuptools leaves behind unless told."""
     folder = ROOT / "diagrams" / "scenarios"
