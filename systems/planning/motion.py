@@ -206,7 +206,9 @@ def _com_height(
     begin = 0.0
     for i, step in enumerate(steps):
         target = step.stance[2] + params.com_height
-        finish = step.lift if i == 0 else step.land - 0.15 * (step.land - step.lift)
+        finish = step.lift
+        if i > 0:
+            finish += params.rise_end * (step.land - step.lift)
         later = time >= begin
         blend = quintic((time[later] - begin) / (finish - begin))
         height[later] = level + (target - level) * blend

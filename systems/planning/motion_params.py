@@ -47,6 +47,9 @@ class MotionPlannerParams:
     lean: float = 0.30
     """Forward pitch of the pelvis while climbing, rad; brings the CoM over the bent
     knee and takes torque off it."""
+    rise_end: float = 0.85
+    """Share of a climbing step's single support after which the CoM is up: the earlier,
+    the straighter is the knee that carries it and the more must the rear leg push."""
     toe_off_start: float = 0.45
     """Share of the double support after which the rear heel lifts: by then the ZMP has
     passed the toe line."""
@@ -86,6 +89,8 @@ class MotionPlannerParams:
                 raise ValueError(
                     f"{name}: must not be negative, got {getattr(self, name)}"
                 )
+        if not 0.0 < self.rise_end <= 1.0:
+            raise ValueError(f"rise_end: must lie in (0, 1], got {self.rise_end}")
         if not 0.0 <= self.toe_off_start < 1.0:
             raise ValueError(
                 f"toe_off_start: must lie in [0, 1), got {self.toe_off_start}"

@@ -1,0 +1,255 @@
+"""What a motion plan will ask of the robot: torques, reach and room for its limbs.
+
+The plan is carried out in thought: the whole-body IK follows it at a coarse tick,
+inverse dynamics under distributed foot wrenches give the joint torques, and the limbs'
+collision hulls are held against the edges of the treads. Nothing here knows of
+contact physics, servos or feedback.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from pydrake.multibody.plant import MultibodyPlant
+from pydrake.multibody.tree import JacobianWrtVariable
+from pydrake.systems.framework import Context
+
+from models.collision_hulls import CollisionHull
+from models.robot import RobotModel
+from systems.balance.wrench_distribution import DistributionParams, distribute_wrench
+from systems.balance.zmp_preview import GRAVITY
+from systems.planning.toe_off import heading
+from systems.ports import Vector
+from systems.tracking.whole_body_feedforward import momentum_rate, needed_forces
+from systems.tracking.whole_body_ik import IkTarget, WholeBodyIk, integrate
+from systems.values import FEET, MotionPlan
+
+TICK = 0.02
+"""Between the postures that are looked at, s."""
+SETTLING_TICKS = 150
+"""Ticks in which the IK comes to rest on the plan's first row."""
+NORMALS = np.linspace(0.0, 0.5 * np.pi, 31)
+"""Directions in which a limb is told from a step, from level to straight up, rad."""
+
+
+@dataclass(frozen=True)
+class MotionPrediction:
+    """What a plan asks for, at n moments."""
+
+    time: Vector
+    """Since the plan's start, (n,), s."""
+    torques: Vector
+    """Of the actuated joints, not limited, (n, na), Nm."""
+    joints: tuple[str, ...]
+    """Their names."""
+    effort_limits: Vector
+    """(na,), Nm."""
+    foot_error: Vector
+    """Distance by which the worse sole misses its pose, (n,), m."""
+    com_error: Vector
+    """Horizontal distance by which the CoM misses its place, (n,), m."""
+    gaps: Vector
+    """Least distance of each limb to the edges, (n, b), m; negative where it runs
+    into a step; inf without edges."""
+    limbs: tuple[str, ...]
+    """Names of those bodies."""
+
+    def worst_torque(self, window: float = 0.0) -> tuple[float, str, float]:
+        """The largest share of an effort limit, which joint's, and when, s.
+
+        Args:
+            window: over how long torques are averaged, s: a servo that is at its limit
+                for a moment lets the body sink by a little, it does not drop it.
+        """
+        signed = self.torques / self.effort_limits
+        step = self.time[1] - self.time[0] if len(self.time) > 1 else 1.0
+        span = min(max(1, round(window / step)), len(signed))
+        total = np.vstack([np.zeros(signed.shape[1]), np.cumsum(signed, axis=0)])
+        shares = np.abs(total[span:] - total[:-span]) / span
+        row, column = np.unravel_index(int(shares.argmax()), shares.shape)
+        joint = self.joints[int(column)]
+        return float(shares[row, column]), joint, float(self.time[row])
+
+    def worst_gap(self) -> tuple[float, str, float]:
+        """The least gap, m, which limb's, and when, s."""
+        row, column = np.unravel_index(int(self.gaps.argmin()), self.gaps.shape)
+        return (
+            float(self.gaps[row, column]),
+            self.limbs[int(column)],
+            float(self.time[row]),
+        )
+
+
+class MotionPredictor:
+    """Predicts for one robot; it keeps no state between predictions."""
+
+    def __init__(
+        self,
+        plant: MultibodyPlant,
+        robot: RobotModel,
+        ik: WholeBodyIk,
+        distribution: DistributionParams,
+        hulls: Sequence[CollisionHull],
+    ) -> None:
+        """Gathers frames, limits and limbs.
+
+        Args:
+            plant: the robot alone, finalised.
+            robot: its names.
+            ik: the whole-body IK that will track the plan.
+            distribution: how the feet will share the load.
+            hulls: of the bodies; the feet's are not looked at, as the swing keeps
+                them off the edges.
+        """
+        self._plant, self._robot, self._ik = plant, robot, ik
+        self._distribution = distribution
+        self._feet = [plant.GetBodyByName(robot.foot_bodies[foot]) for foot in FEET]
+        self._p_BF: Vector = np.array([0.0, 0.0, -robot.sole.ankle_height])
+        actuators = [
+            plant.get_joint_actuator(index) for index in plant.GetJointActuatorIndices()
+        ]
+        self._joints = tuple(item.joint().name() for item in actuators)
+        self._rows = np.array([item.joint().velocity_start() for item in actuators])
+        self._effort = np.array([item.effort_limit() for item in actuators])
+        self._mass = plant.CalcTotalMass(plant.CreateDefaultContext())
+        feet = set(robot.foot_bodies.values())
+        self._limbs = [
+            (plant.GetBodyByName(hull.body), hull.vertices.T)
+            for hull in hulls
+            if hull.body not in feet
+        ]
+
+    def predict(
+        self, plan: MotionPlan, edges: Vector, yaw: float, tick: float = TICK
+    ) -> MotionPrediction:
+        """Carries out a plan in thought.
+
+        Args:
+            plan: the plan.
+            edges: a point of the front edge of each tread, (m, 3), m; the step fills
+                all that is ahead of it and below it.
+            yaw: direction in which the stairs go up, rad.
+            tick: between the postures that are looked at, s.
+
+        Returns:
+            The prediction.
+        """
+        plant, context = self._plant, self._plant.CreateDefaultContext()
+        stride = max(1, round(tick / plan.period))
+        rows = np.arange(0, len(plan.zmp), stride)
+        step = stride * plan.period
+        q = self._ik.posture.copy()
+        q[4:7] = plan.com[0]
+        at_rest = self._target(plan, 0, 0)
+        for _ in range(SETTLING_TICKS):
+            plant.SetPositions(context, q)
+            v, _ = self._ik.solve(context, at_rest)
+            q = integrate(plant, context, v, step)
+        v = np.zeros(plant.num_velocities())
+        torques = np.zeros((len(rows), len(self._joints)))
+        foot_error, com_error = np.zeros(len(rows)), np.zeros(len(rows))
+        gaps = np.full((len(rows), len(self._limbs)), np.inf)
+        for k, row in enumerate(rows):
+            plant.SetPositions(context, q)
+            plant.SetVelocities(context, v)
+            before = v
+            foot_error[k], com_error[k] = self._errors(context, plan, row)
+            if len(edges):
+                gaps[k] = self._gaps(context, edges, yaw)
+            v, _ = self._ik.solve(context, self._target(plan, row, stride))
+            torques[k] = self._torques(context, plan, row, (v - before) / step)
+            q = integrate(plant, context, v, step)
+        return MotionPrediction(
+            time=rows * plan.period,
+            torques=torques,
+            joints=self._joints,
+            effort_limits=self._effort,
+            foot_error=foot_error,
+            com_error=com_error,
+            gaps=gaps,
+            limbs=tuple(body.name() for body, _ in self._limbs),
+        )
+
+    def _target(self, plan: MotionPlan, row: int, stride: int) -> IkTarget:
+        """What the IK tracks at a row; at rest with a stride of 0."""
+        after = min(row + stride, len(plan.zmp) - 1)
+        scale = 1.0 / (stride * plan.period) if stride else 0.0
+        return IkTarget(
+            com=plan.com[row],
+            com_velocity=(plan.com[after] - plan.com[row]) * scale,
+            foot_poses=plan.foot_poses[row],
+            foot_rates=(plan.foot_poses[after] - plan.foot_poses[row]) * scale,
+            stance=plan.contacts[row],
+            waist=plan.waist[row],
+            waist_rate=(plan.waist[after] - plan.waist[row]) * scale,
+        )
+
+    def _errors(
+        self, context: Context, plan: MotionPlan, row: int
+    ) -> tuple[float, float]:
+        p_WCom = self._plant.CalcCenterOfMassPositionInWorld(context)
+        missed = [
+            np.linalg.norm(body.EvalPoseInWorld(context).multiply(self._p_BF) - p[:3])
+            for body, p in zip(self._feet, plan.foot_poses[row], strict=True)
+        ]
+        apart = np.linalg.norm(p_WCom[:2] - plan.com[row, :2])
+        return float(max(missed)), float(apart)
+
+    def _torques(
+        self, context: Context, plan: MotionPlan, row: int, acceleration: Vector
+    ) -> Vector:
+        plant = self._plant
+        forces = needed_forces(plant, context, acceleration)
+        lift: Vector = plan.com_acceleration[row] + np.array([0.0, 0.0, GRAVITY])
+        wrenches, _ = distribute_wrench(
+            np.concatenate([self._mass * lift, momentum_rate(plant, context, forces)]),
+            plant.CalcCenterOfMassPositionInWorld(context),
+            plan.foot_poses[row],
+            plan.contacts[row],
+            plan.contact_lengths[row],
+            self._robot.sole,
+            self._distribution,
+        )
+        world = plant.world_frame()
+        for body, wrench in zip(self._feet, wrenches, strict=True):
+            J = plant.CalcJacobianSpatialVelocity(
+                context,
+                JacobianWrtVariable.kV,
+                body.body_frame(),
+                self._p_BF,
+                world,
+                world,
+            )
+            forces = forces - J.T @ np.concatenate([wrench[3:], wrench[:3]])
+        torques: Vector = forces[self._rows]
+        return torques
+
+    def _gaps(self, context: Context, edges: Vector, yaw: float) -> Vector:
+        ahead = heading(yaw)
+        gaps = np.zeros(len(self._limbs))
+        for i, (body, p_B) in enumerate(self._limbs):
+            p_W: Vector = np.asarray(body.EvalPoseInWorld(context).multiply(p_B)).T
+            gaps[i] = edge_gap(p_W, edges, ahead)
+        return gaps
+
+
+def edge_gap(points: Vector, edges: Vector, ahead: Vector) -> float:
+    """How far a convex body is from steps that fill all ahead of and below their edges.
+
+    Both are convex in the plane along the stairs, so that a line tells them apart
+    where they do not meet; what is beside the steps counts as before them.
+
+    Args:
+        points: the body's vertices, (n, 3), m.
+        edges: a point of each step's front edge, (m, 3), m.
+        ahead: horizontal unit vector up the stairs, (2,).
+
+    Returns:
+        The least distance, m; negative by how far the body would have to move where
+        it runs into a step.
+    """
+    normals = np.array([-np.cos(NORMALS), np.sin(NORMALS)])
+    body = np.column_stack([points[:, :2] @ ahead, points[:, 2]]) @ normals
+    steps = np.column_stack([edges[:, :2] @ ahead, edges[:, 2]]) @ normals
+    between = body.min(axis=0) - steps
+    return float(between.max(axis=1).min())
