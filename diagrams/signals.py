@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import cast
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -195,12 +195,17 @@ class SignalFrames(Mapping[str, pd.DataFrame]):
 
         Raises:
             KeyError: the run did not log this signal.
+            RunError: its file is damaged.
         """
         if name not in self._paths:
             known = ", ".join(self._paths) or "none"
             raise KeyError(f"no signal {name!r} in this run; it has: {known}")
         if name not in self._frames:
-            table = pq.read_table(self._paths[name])
+            path = self._paths[name]
+            try:
+                table = pq.read_table(path)
+            except (pa.ArrowException, OSError) as error:
+                raise RunError(f"{path}: not a Parquet file: {error}") from error
             frame = table.to_pandas()
             frame.attrs["units"] = {
                 item.name: (item.metadata or {}).get(b"unit", b"").decode()
@@ -226,9 +231,16 @@ class Run:
 
     @cached_property
     def summary(self) -> dict[str, Json]:
-        """What `summary.json` says."""
-        text = (self.folder / SUMMARY_FILE).read_text(encoding="utf-8")
-        return cast(dict[str, Json], json.loads(text))
+        """What `summary.json` says.
+
+        Raises:
+            RunError: it is damaged.
+        """
+        path = self.folder / SUMMARY_FILE
+        data = _parse_json(path, path.read_bytes())
+        if not isinstance(data, dict):
+            raise RunError(f"{path}: must hold the fields of a summary")
+        return data
 
     @cached_property
     def scenario(self) -> Scenario:
@@ -251,13 +263,24 @@ class Run:
 
         Raises:
             KeyError: the run did not log this signal.
+            RunError: its file is damaged.
         """
         if name not in self.value_names:
             known = ", ".join(self.value_names) or "none"
             raise KeyError(f"no values {name!r} in this run; it has: {known}")
         path = self.folder / SIGNALS_FOLDER / f"{name}.jsonl"
-        entries = map(json.loads, path.read_text(encoding="utf-8").splitlines())
-        return [(entry["time"], entry["value"]) for entry in entries]
+        entries = (_parse_json(path, line) for line in path.read_bytes().splitlines())
+        try:
+            return [(entry["time"], entry["value"]) for entry in entries]
+        except (KeyError, TypeError) as error:
+            raise RunError(f"{path}: a line holds no time and value") from error
+
+
+def _parse_json(path: Path, text: bytes) -> Any:
+    try:
+        return json.loads(text)
+    except ValueError as error:
+        raise RunError(f"{path}: not JSON: {error}") from error
 
 
 def load_run(folder: Path | str) -> Run:

@@ -123,3 +123,31 @@ def test_ill_declared_signals_are_refused(name, columns, units, message) -> None
     recorder.add_vector("taken.y", source.get_output_port(), ("a", "b"), "m", 0.1)
     with pytest.raises(ValueError, match=message):
         recorder.add_vector(name, source.get_output_port(), columns, units, 0.1)
+
+
+@pytest.mark.parametrize(
+    ("name", "damage"),
+    [
+        ("summary.json", b""),
+        ("summary.json", b"[1]"),
+        ("signals/source.y0.parquet", b"PAR1"),
+        ("signals/source.value.jsonl", b'{"time": 0.0, "val'),
+        ("signals/source.value.jsonl", b"3\n"),
+    ],
+)
+def test_a_damaged_file_is_named(tmp_path, name, damage) -> None:
+    """In one line, wherever in the run folder it lies."""
+    (tmp_path / "signals").mkdir()
+    (tmp_path / "summary.json").write_text("{}")
+    (tmp_path / "scenario.yaml").write_text("")
+    (tmp_path / name).write_bytes(damage)
+    run = load_run(tmp_path)
+
+    def read_all() -> None:
+        assert run.summary == {}
+        assert [run.signals[signal] for signal in run.signals] == []
+        assert [run.values(value) for value in run.value_names] == []
+
+    with pytest.raises(RunError) as caught:
+        read_all()
+    assert str(caught.value).startswith(str(tmp_path / name))
