@@ -217,6 +217,20 @@ def test_shell_adapts_each_foot_on_its_own() -> None:
     )
 
 
+def test_each_foot_has_its_own_sensor() -> None:
+    """Force under the left foot says nothing of the right one."""
+    system, context = make()
+    simulator = Simulator(system, context)
+    system.GetInputPort("contacts").FixValue(context, [1.0, 0.0, 0.225, 0.225])
+    wrenches = np.zeros(12)
+    wrenches[2] = 600.0
+    system.GetInputPort("foot_wrenches").FixValue(context, wrenches)
+    simulator.AdvanceTo(0.501)
+    system.GetInputPort("contacts").FixValue(context, [1.0, 1.0, 0.225, 0.225])
+    simulator.AdvanceTo(0.531)
+    assert output(system, context, "contacts")[:2].tolist() == [1.0, 0.0]
+
+
 def test_a_new_plan_begins_at_the_references() -> None:
     """What was remembered of the ground is in the new plan already."""
     system, context = make()

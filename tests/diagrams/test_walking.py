@@ -1,0 +1,105 @@
+"""The walking controllers: they hold the stand they begin with."""
+
+import numpy as np
+import pytest
+from pydrake.systems.analysis import Simulator
+from pydrake.systems.framework import Context, DiagramBuilder
+
+from diagrams.scenario import load_scenario
+from diagrams.station import add_station
+from diagrams.task_diagram import TaskDiagram
+from diagrams.tasks import build_task
+from diagrams.walking import Stand, initial_stand
+from models.jvrc1 import JVRC1
+from systems.ports import Vector, eval_vector
+from systems.tracking.whole_body_ik import WholeBodyIk
+
+OVERRIDES = ("robot.x=-0.5", "robot.y=0.4", "robot.yaw=0.5", "scene.staircase.x=1.0")
+
+
+@pytest.fixture(scope="module")
+def stood() -> tuple[TaskDiagram, Context]:
+    """After a second."""
+    task = build_task(load_scenario("stairs-exp1", OVERRIDES))
+    simulator = Simulator(task.diagram)
+    simulator.AdvanceTo(1.0)
+    return task, simulator.get_context()
+
+
+def output(stood: tuple[TaskDiagram, Context], system: str, port: str) -> Vector:
+    """A vector port of a subsystem."""
+    task, root = stood
+    subsystem = task.diagram.GetSubsystemByName(system)
+    context = subsystem.GetMyContextFromRoot(root)
+    return eval_vector(subsystem.GetOutputPort(port), context)
+
+
+def make_stand(*overrides: str) -> tuple[Stand, Context, object]:
+    """The stand, the model's context at it and the model."""
+    scenario = load_scenario("stairs-exp1", overrides)
+    station = add_station(DiagramBuilder(), scenario, JVRC1, 0.005)
+    ik = WholeBodyIk(station.model, JVRC1, scenario.parameters.ik)
+    stand = initial_stand(scenario, JVRC1, ik, station)
+    context = station.model.CreateDefaultContext()
+    station.model.SetPositions(context, stand.positions)
+    return stand, context, station.model
+
+
+@pytest.mark.parametrize("overrides", [(), OVERRIDES])
+def test_the_stand_is_on_the_floor_under_the_start_pose(overrides) -> None:
+    """Soles flat on z = 0, the CoM over their middle at its height."""
+    stand, context, model = make_stand(*overrides)
+    yaw, x, y = (0.5, -0.5, 0.4) if overrides else (0.0, 0.0, 0.0)
+    com = model.CalcCenterOfMassPositionInWorld(context)
+    np.testing.assert_allclose(com, stand.com, atol=2e-3)
+    assert stand.com[2] == 0.85
+    ahead = (stand.com[:2] - [x, y]) @ [np.cos(yaw), np.sin(yaw)]
+    assert 0.0 < ahead < JVRC1.sole.toe
+    for foot, pose, side in zip(
+        ("left", "right"), stand.foot_poses, (1.0, -1.0), strict=True
+    ):
+        body = model.GetBodyByName(JVRC1.foot_bodies[foot])
+        X_WA = body.EvalPoseInWorld(context)
+        sole = X_WA.multiply(np.array([0.0, 0.0, -JVRC1.sole.ankle_height]))
+        np.testing.assert_allclose(sole, pose[:3], atol=1e-5)
+        want = [x - side * 0.095 * np.sin(yaw), y + side * 0.095 * np.cos(yaw), 0.0]
+        np.testing.assert_allclose(pose[:3], want, atol=1e-12)
+        assert pose[5] == yaw
+        np.testing.assert_allclose(X_WA.rotation().matrix()[:, 2], [0, 0, 1], atol=1e-5)
+
+
+def test_the_stand_is_held(stood) -> None:
+    """CoM and DCM stay near the reference, the feet where they are."""
+    com = output(stood, "kinematic_state", "com")
+    reference = output(stood, "com_reference", "com_reference")
+    np.testing.assert_allclose(com, reference[:3], atol=4e-3)
+    dcm = output(stood, "stabilizer", "dcm")
+    wanted = output(stood, "stabilizer", "dcm_reference")
+    np.testing.assert_allclose(dcm, wanted, atol=4e-3)
+    assert np.abs(output(stood, "ik_tracker", "velocities")).max() < 0.02
+
+
+def test_the_stabiliser_asks_for_what_the_feet_feel(stood) -> None:
+    """Forces in W and in the level soles agree to some newtons."""
+    asked = output(stood, "stabilizer", "foot_wrenches").reshape(2, 6)
+    felt = output(stood, "foot_wrench_sensor", "foot_wrenches").reshape(2, 6)
+    np.testing.assert_allclose(asked[:, 2], felt[:, 2], atol=25.0)
+    assert asked[:, 2].sum() == pytest.approx(62.4 * 9.81, rel=0.02)
+
+
+def test_contacts_and_references_are_those_of_the_plan(stood) -> None:
+    """Nothing is adapted while the robot stands."""
+    for port in ("foot_references", "contacts"):
+        np.testing.assert_array_equal(
+            output(stood, "landing_adaptor", port),
+            output(stood, "motion_player", port),
+        )
+
+
+def test_controllers_share_their_period(stood) -> None:
+    """Every fast loop ticks at 5 ms; only events ask for abstract state."""
+    task, _ = stood
+    for name in ("ik_tracker", "landing_adaptor", "zmp_preview"):
+        system = task.diagram.GetSubsystemByName(name)
+        assert system.GetUniquePeriodicDiscreteUpdateAttribute().period_sec() == 0.005
+        assert system.num_abstract_states() == 0
