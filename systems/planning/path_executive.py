@@ -69,7 +69,9 @@ class PathDecision(Value):
     """When the room was last looked at, s."""
     plans: int = 0
     """How many motions were planned."""
-    status: TaskStatus = dataclasses.field(default_factory=TaskStatus)
+    status: TaskStatus = dataclasses.field(
+        default_factory=lambda: TaskStatus("running", "look")
+    )
 
 
 def blocking_box(

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 import pytest
-from pydrake.math import RigidTransform
+from pydrake.math import RigidTransform, RotationMatrix
 
 from diagrams.evidence import Evidence, Limits
 from diagrams.outcome import has_fallen, judge
@@ -217,3 +217,42 @@ def test_torques_of_another_number_of_joints_are_refused(climb: Evidence) -> Non
     frames = {**climb.frames, "plant.net_actuation": frame(np.zeros((7, 3)))}
     with pytest.raises(ValueError, match="has 3 columns, expected one for each of 2"):
         judge(replace(climb, frames=frames))
+
+
+def at_goal(climb: Evidence, dx: float = 0.0, turn: float = 0.0) -> Evidence:
+    """On the floor, its feet's middle beside its goal by dx, facing past it by turn."""
+    motion = motion_of(["floor"] * 7, ["floor"] * 7)
+    R = RotationMatrix.MakeZRotation(np.pi - turn).matrix()
+    poses = {}
+    for foot in FEET:
+        poses[foot] = motion.X_WF[foot].copy()
+        poses[foot][:, :3, 3] = R @ poses[foot][0, :3, 3]
+        poses[foot][:, :3, :3] = R
+    return replace(
+        climb, treads=(), motion=replace(motion, X_WF=poses), goal=(dx, 0.0, -np.pi)
+    )
+
+
+def test_a_goal_is_reached_within_its_tolerances(climb: Evidence) -> None:
+    """10 cm and 10 deg, the heading across the turn of pi."""
+    slow = replace(climb, joint_velocities={"HIP": np.full(7, 1.0)})
+    judgement = judge(at_goal(slow, 0.09, np.deg2rad(9.0)))
+    assert judgement.outcome == "completed"
+    assert judgement.reason.startswith("the robot stands 9.0 cm from the goal")
+    assert judgement.goal_error_m == pytest.approx(0.09)
+    assert judgement.goal_turn_rad == pytest.approx(np.deg2rad(9.0))
+    assert judgement.steps_climbed is None
+
+
+def test_a_goal_that_is_missed_is_not_reached(climb: Evidence) -> None:
+    """Whatever the executive says; both faults are named."""
+    judgement = judge(at_goal(climb, 0.11, np.deg2rad(-11.0)))
+    assert judgement.outcome == "infeasible"
+    assert "the robot stands 0.11 m from the goal" in judgement.reason
+    assert "the robot faces 11 deg off the goal's" in judgement.reason
+
+
+def test_without_a_goal_there_is_no_goal_error(climb: Evidence) -> None:
+    """Not zero."""
+    judgement = judge(climb)
+    assert (judgement.goal_error_m, judgement.goal_turn_rad) == (None, None)

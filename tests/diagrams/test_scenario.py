@@ -1,6 +1,7 @@
 """Scenarios: those that ship, reading, overriding, writing, and every error."""
 
 from dataclasses import fields
+from math import hypot
 from pathlib import Path
 
 import pytest
@@ -202,3 +203,27 @@ def test_wrong_file_is_refused_under_its_path(
 def test_folder_is_refused(tmp_path: Path) -> None:
     """A folder is no scenario."""
     assert _message(tmp_path) == f"{tmp_path}: cannot be read: is a directory"
+
+
+def test_clutter_is_in_place_once_a_scenario_is_loaded(tmp_path: Path) -> None:
+    """By the run's seed, beside the boxes that are named; kept when it is written."""
+    crate = "scene.boxes=[{name: crate, x: 3.5, y: 2.5}]"
+    room = load_scenario("room", ["simulation.seed=3", crate])
+    assert room.scene.clutter is None
+    names = [box.name for box in room.scene.boxes]
+    assert names[0] == "crate"
+    assert 6 <= len(names[1:]) <= 10
+    assert names[1:] == [f"clutter_{index}" for index in range(len(names) - 1)]
+    for x, y in ((room.robot.x, room.robot.y), room.task.goal[:2]):
+        assert all(hypot(box.x - x, box.y - y) > 0.55 for box in room.scene.boxes)
+    save_scenario(room, tmp_path / "room.yaml")
+    assert load_scenario(tmp_path / "room.yaml") == room
+    assert load_scenario("room", ["simulation.seed=3", crate]) == room
+    assert load_scenario("room", ["simulation.seed=4", crate]).scene != room.scene
+
+
+def test_a_room_that_is_too_full_is_refused() -> None:
+    """The field is named, and how many boxes were to be placed."""
+    message = _message("room", "scene.clutter={least_count: 500, most_count: 500}")
+    assert "scene.clutter: " in message
+    assert "no room for 500 boxes" in message

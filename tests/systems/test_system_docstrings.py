@@ -30,6 +30,7 @@ from systems.balance.stabilizer import Stabilizer, StabilizerParams
 from systems.balance.static_stability import StaticStability
 from systems.balance.zmp_preview import ZmpPreviewParams
 from systems.balance.zmp_preview_controller import ZmpPreviewController
+from systems.disturbance.box_mover import BoxMover
 from systems.disturbance.pusher import Pusher
 from systems.perception.depth_cloud import DepthCloud, DepthCloudParams
 from systems.perception.environment_exchange import EnvironmentExchange
@@ -44,6 +45,7 @@ from systems.planning.footstep_planner import FootstepPlanner
 from systems.planning.motion_params import MotionPlannerParams
 from systems.planning.motion_planner import MotionPlanner
 from systems.planning.motion_player import MotionPlayer
+from systems.planning.path_executive import PathExecutive, PathExecutiveParams
 from systems.planning.path_footstep_planner import PathFootstepPlanner
 from systems.planning.path_planner import PathPlanner
 from systems.sensing.contact_monitor import ContactMonitor, WatchedGeometry
@@ -93,6 +95,7 @@ def standing_plan() -> MotionPlan:
 
 
 FACTORIES: dict[type[LeafSystem], Callable[[], LeafSystem]] = {
+    BoxMover: lambda: BoxMover([]),
     ComReference: ComReference,
     ContactMonitor: lambda: ContactMonitor(WatchedGeometry((), (), {}, {}), 0.002),
     Executive: lambda: Executive(ExecutiveParams(), standing_plan()),
@@ -112,6 +115,9 @@ FACTORIES: dict[type[LeafSystem], Callable[[], LeafSystem]] = {
     ),
     MotionPlayer: lambda: MotionPlayer(320),
     ObstacleClusterer: ObstacleClusterer,
+    PathExecutive: lambda: PathExecutive(
+        PathExecutiveParams(), JVRC1.sole, standing_plan(), lambda plan, time: None
+    ),
     PathFootstepPlanner: lambda: PathFootstepPlanner(
         FootstepPlannerParams(), JVRC1.sole
     ),
