@@ -30,9 +30,11 @@ from systems.balance.zmp_preview import ZmpPreviewParams
 from systems.perception.boxes import ObstacleClustererParams
 from systems.perception.depth_cloud import DepthCloudParams
 from systems.perception.floor import FloorParams
+from systems.perception.obstacle_finder import ObstacleFinderParams
 from systems.perception.scan_assembler import ScanAssemblerParams
 from systems.perception.segmenter_params import PlaneSegmenterParams
 from systems.perception.staircase_merging import StaircaseMapParams
+from systems.planning.crossing_params import CrossingParams
 from systems.planning.executive import ExecutiveParams
 from systems.planning.footstep_params import FootstepPlannerParams
 from systems.planning.motion_params import MotionPlannerParams
@@ -44,7 +46,7 @@ from systems.tracking.whole_body_ik import IkParams
 
 ROBOTS: dict[str, RobotModel] = {"jvrc1": JVRC1}
 """The robots that a scenario may name."""
-TASKS = ("stair_climbing", "room_crossing")
+TASKS = ("stair_climbing", "room_crossing", "obstacle_crossing")
 """What a robot may be asked to do."""
 MODES = ("dynamic",)
 """How it may do it."""
@@ -123,14 +125,14 @@ class TaskParams:
 
     kind: str = "stair_climbing"
     """What: "stair_climbing", up the staircase to its top tread; "room_crossing", over
-    the floor to `goal`."""
+    the floor to `goal`; "obstacle_crossing", the same over what lies in the way."""
     mode: str = "dynamic"
     """How: "dynamic", with a moving ZMP under a stabiliser."""
     steps_between_scans: int = 2
     """How many treads are climbed before the robot stands and scans again."""
     goal: list[float] = field(default_factory=lambda: [2.5, 0.0, 0.0])
     """Where the midpoint of the feet is to come to and the heading there, in W, x, y,
-    yaw, m and rad; "room_crossing" only."""
+    yaw, m and rad; not in "stair_climbing"."""
     pushes: list[PushParams] = field(default_factory=list)
     """Pushes on the way."""
 
@@ -186,6 +188,10 @@ class ControllerParams:
     """When to look, plan and walk in a room."""
     executive: ExecutiveParams = field(default_factory=ExecutiveParams)
     """When to scan, plan and move."""
+    obstacle_finder: ObstacleFinderParams = field(default_factory=ObstacleFinderParams)
+    """From the cloud to what lies in the way."""
+    crossing: CrossingParams = field(default_factory=CrossingParams)
+    """How that is stepped over."""
 
 
 @dataclass(kw_only=True)

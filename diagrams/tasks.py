@@ -2,12 +2,14 @@
 
 from pydrake.geometry import Meshcat
 
+from diagrams.obstacle_crossing import build_obstacle_crossing
 from diagrams.room_crossing import build_room_crossing
 from diagrams.scenario import Scenario, ScenarioError
 from diagrams.stair_climbing import build_stair_climbing
 from diagrams.task_diagram import TaskDiagram
 
 BUILDERS = {
+    "obstacle_crossing": build_obstacle_crossing,
     "room_crossing": build_room_crossing,
     "stair_climbing": build_stair_climbing,
 }

@@ -32,6 +32,9 @@ class FeasibilityParams:
     """Margin above the obstacle, m; likewise."""
     delta_ds: float = 0.5
     """delta_DS of Eq. 22: share of the step length at which the waist is."""
+    waist_travel: float = 0.08
+    """How far before and behind X_hds the waist is while both feet are down, m: the
+    double support is short, but not nothing."""
     step_increment: float = 0.01
     """By which the step length is raised, m."""
     height_increment: float = 0.01
@@ -50,7 +53,7 @@ class FeasibilityParams:
         Raises:
             ValueError: "field: reason, got x" for the first field that is wrong.
         """
-        for name in ("s_w", "s_h", "joint_margin"):
+        for name in ("s_w", "s_h", "joint_margin", "waist_travel"):
             require_at_least(name, getattr(self, name), 0.0)
         for name in (
             "step_increment",
@@ -142,9 +145,7 @@ def feasibility_unit(
             constraint=f"the obstacle is {section.width:.2f} m wide: a step over it is "
             f"{least:.2f} m long at least, more than {params.max_step_length:.2f} m"
         )
-    steps = np.arange(
-        least, params.max_step_length + 1e-9, params.step_increment
-    )
+    steps = np.arange(least, params.max_step_length + 1e-9, params.step_increment)
     heights = np.arange(
         walking_waist, params.lowest_waist - 1e-9, -params.height_increment
     )
@@ -153,7 +154,15 @@ def feasibility_unit(
     )
     front = toe + share * (X - least)
     hips = params.delta_ds * X
-    checked = check_double_support(inflated, X, hips, Z, front, leg)
+    parts = [
+        check_double_support(inflated, X, hips + travel, Z, front, leg)
+        for travel in (-params.waist_travel, 0.0, params.waist_travel)
+    ]
+    checked = Checked(
+        np.min([part.reached for part in parts], axis=0),
+        np.max([part.limits for part in parts], axis=0),
+        np.min([part.gap for part in parts], axis=0),
+    )
     margin = params.joint_margin
     within = (checked.reached > 0.5) & (checked.limits <= -margin).all(axis=1)
     free = within & (checked.gap > 0.0)
@@ -169,9 +178,7 @@ def feasibility_unit(
     return Feasibility(key)
 
 
-def _failing(
-    checked: Checked, within: Vector, margin: float, section: Section
-) -> str:
+def _failing(checked: Checked, within: Vector, margin: float, section: Section) -> str:
     """The constraint that no configuration meets, in one line."""
     what = f"an obstacle {section.height:.2f} m high and {section.width:.2f} m wide"
     if within.any():

@@ -80,7 +80,9 @@ def outline_gap(points: Vector, section: Section) -> Vector:
     return np.asarray(np.where(met, np.minimum(gap, 0.0), gap))
 
 
-def _contains(polygon: Vector, point: Vector) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+def _contains(
+    polygon: Vector, point: Vector
+) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
     """Whether closed polygons (n, k, 2) hold a point (2,), by counting crossings."""
     a, b = polygon, np.roll(polygon, -1, axis=1)
     above = (a[..., 1] > point[1]) != (b[..., 1] > point[1])

@@ -1,0 +1,140 @@
+"""Step over what lies in the way without stopping (obstacle paper, closed loop)."""
+
+import numpy as np
+from pydrake.geometry import Meshcat, MeshcatVisualizer
+from pydrake.multibody.plant import MultibodyPlant
+from pydrake.systems.framework import DiagramBuilder
+from pydrake.systems.primitives import ConstantVectorSource
+
+from diagrams.scenario import ROBOTS, Scenario
+from diagrams.station import add_lidar, add_station
+from diagrams.task_diagram import TaskDiagram
+from diagrams.walking import add_walking, initial_stand
+from diagrams.walking_signals import VALUE_PERIOD, record_walking
+from diagrams.wiring import add_system
+from models.robot import RobotModel
+from models.robot_loader import body_meshes
+from systems.perception.obstacle_finder import ObstacleFinder
+from systems.planning.crossing_planner import CrossingPlanner
+from systems.planning.executive import Executive
+from systems.planning.leg_model import leg_model, leg_outline
+from systems.planning.motion import plan_motion
+from systems.planning.whole_body_plan import WholeBody
+from systems.ports import Vector
+from systems.tracking.whole_body_ik import WholeBodyIk
+
+FORBIDDEN = ("box/", "room/wall", "room/ceiling")
+"""What the robot must not touch, with its soles neither."""
+
+
+def planning_body(robot: RobotModel, model: MultibodyPlant) -> WholeBody:
+    """The robot that plans are made with: its plant and its legs' lengths and outline.
+
+    Args:
+        robot: its names.
+        model: the plant of the robot alone.
+    """
+    surfaces = {mesh.body: mesh.vertices for mesh in body_meshes(robot)}
+    foot = robot.foot_bodies["left"]
+    knee = model.GetJointByName(robot.leg_joints["left"][3])
+    outline = leg_outline(surfaces[foot], surfaces[knee.child_body().name()])
+    return WholeBody(model, robot, leg_model(model, robot, outline))
+
+
+def build_obstacle_crossing(
+    scenario: Scenario, meshcat: Meshcat | None = None
+) -> TaskDiagram:
+    """Builds the closed loop: scan, find obstacles, plan, walk and cross, look again.
+
+    Args:
+        scenario: what to build.
+        meshcat: where the run is to be shown live, if anywhere.
+
+    Returns:
+        The diagram, its default context where the robot starts.
+    """
+    params = scenario.parameters
+    robot = ROBOTS[scenario.robot.name]
+    builder = DiagramBuilder()
+
+    station = add_station(
+        builder, scenario, robot, params.ik.period, FORBIDDEN, soles_allowed=False
+    )
+    lidar, assembler = add_lidar(builder, scenario, station)
+    finder = add_system(
+        builder, "obstacle_finder", ObstacleFinder(params.obstacle_finder)
+    )
+    builder.Connect(assembler.GetOutputPort("cloud"), finder.GetInputPort("cloud"))
+    builder.Connect(lidar.GetOutputPort("viewpoint"), finder.GetInputPort("viewpoint"))
+
+    ik = WholeBodyIk(station.model, robot, params.ik)
+    stand = initial_stand(scenario, robot, ik, station)
+    nowhere: Vector = np.zeros((0, 3))
+    standing = plan_motion(
+        stand.foot_poses,
+        stand.com,
+        (),
+        nowhere,
+        params.motion_planner,
+        params.zmp_preview,
+        robot,
+    )
+    goal: Vector = np.array(scenario.task.goal, dtype=np.float64)
+    goal_source = add_system(builder, "goal", ConstantVectorSource(goal))
+    planner = add_system(
+        builder,
+        "crossing_planner",
+        CrossingPlanner(
+            params.footstep_planner,
+            params.motion_planner,
+            params.crossing,
+            params.zmp_preview,
+            planning_body(robot, station.model),
+            standing,
+        ),
+    )
+    builder.Connect(
+        finder.GetOutputPort("obstacle_map"), planner.GetInputPort("obstacle_map")
+    )
+    builder.Connect(goal_source.get_output_port(), planner.GetInputPort("goal"))
+
+    executive = add_system(builder, "executive", Executive(params.executive, standing))
+    builder.Connect(assembler.GetOutputPort("sweep"), executive.GetInputPort("sweep"))
+    builder.Connect(executive.GetOutputPort("scan"), lidar.GetInputPort("enable"))
+    for port in ("footstep_plan", "motion_plan"):
+        builder.Connect(planner.GetOutputPort(port), executive.GetInputPort(port))
+
+    walking = add_walking(
+        builder, scenario, station, stand, executive.GetOutputPort("motion_plan")
+    )
+    builder.Connect(
+        walking.landing.GetOutputPort("foot_references"),
+        planner.GetInputPort("foot_references"),
+    )
+    builder.Connect(walking.com_reference, planner.GetInputPort("com_reference"))
+
+    recorder = record_walking(builder, station, walking)
+    for name, output in (
+        ("executive.status", executive.GetOutputPort("status")),
+        ("executive.footstep_plan", executive.GetOutputPort("footstep_plan")),
+        ("executive.motion_plan", executive.GetOutputPort("motion_plan")),
+        ("obstacle_finder.obstacle_map", finder.GetOutputPort("obstacle_map")),
+    ):
+        recorder.add_value(name, output, VALUE_PERIOD)
+
+    if meshcat is not None:
+        MeshcatVisualizer.AddToBuilder(builder, station.scene_graph, meshcat)
+    station.plant.SetDefaultPositions(station.instance, stand.positions)
+    diagram = builder.Build()
+    diagram.set_name("obstacle_crossing")
+    return TaskDiagram(
+        diagram=diagram,
+        plant=station.plant,
+        robot_instance=station.instance,
+        robot=robot,
+        scene=scenario.scene,
+        signals=recorder,
+        status=executive.GetOutputPort("status"),
+        goal=(goal[0], goal[1], goal[2]),
+        meshcat=meshcat,
+    )

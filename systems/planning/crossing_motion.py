@@ -1,0 +1,366 @@
+"""Algorithm 1: from footsteps over obstacles to the motion of the whole robot.
+
+FTG, CWTG1, IK, UBMG, CWTG2 and FTA in the paper's order (Stasse et al. 2009, Sec.
+III); FU has been asked before, when the footsteps were placed.
+"""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from pydrake.systems.framework import Context
+from scipy.interpolate import CubicSpline
+
+from systems.balance.dynamic_filter import filter_motion_varying_height
+from systems.balance.zmp_preview import (
+    GRAVITY,
+    ComMotion,
+    ZmpPreviewParams,
+    rest_state,
+)
+from systems.balance.zmp_tracking import generate_varying_height, height_factor
+from systems.obstacle_values import KeyConfiguration, Obstacle, across
+from systems.planning.crossing_params import CrossingParams
+from systems.planning.crossing_timing import (
+    TimedStep,
+    bump,
+    contact_phases,
+    front_distance,
+    section_of,
+    third_order,
+    time_steps,
+    zmp_reference,
+)
+from systems.planning.feet_adaptor import Repairs, adapt, leg_gaps
+from systems.planning.foot_trajectory_generator import Crossing, foot_trajectory
+from systems.planning.leg_clearance import Section
+from systems.planning.motion_params import MotionPlannerParams
+from systems.planning.whole_body_plan import (
+    BodyMotion,
+    WholeBody,
+    body_motion,
+    body_zmp,
+)
+from systems.ports import Vector
+from systems.values import FEET, Footstep, MotionPlan
+
+
+@dataclass(frozen=True)
+class CrossingReport:
+    """How well a planned motion keeps what it is to keep."""
+
+    gap: float
+    """Least distance of the legs to the true size of the obstacles as they were seen,
+    m; inf without obstacles."""
+    short: float
+    """Most that an ankle is out of reach, m."""
+    zmp_error_before: tuple[float, float]
+    """Largest distance of the multibody ZMP to its reference after CWTG1, along and
+    across the heading, over the crossings, m."""
+    zmp_error_after: tuple[float, float]
+    """The same after CWTG2."""
+    repairs: Repairs
+
+
+class _Rows(NamedTuple):
+    """What the whole-body motion is computed from, every `sampling`."""
+
+    time: Vector
+    feet: Vector
+    waist_height: Vector
+    waist_rpy: Vector
+    zmp: Vector
+
+
+def plan_crossing(
+    feet: Vector,
+    com: Vector,
+    footsteps: tuple[Footstep, ...],
+    obstacles: tuple[Obstacle, ...],
+    keys: tuple[KeyConfiguration, ...],
+    walking: MotionPlannerParams,
+    crossing: CrossingParams,
+    preview: ZmpPreviewParams,
+    body: WholeBody,
+    context: Context,
+) -> tuple[MotionPlan, CrossingReport]:
+    """Plans the motion from standing to standing, beginning at time 0.
+
+    Args:
+        feet: sole poses at the start, (2, 6), left first, level.
+        com: p_WCom at the start, (3,), at rest.
+        footsteps: where the feet go; a `plane` of 0 or more is the obstacle that the
+            step crosses, two steps an obstacle.
+        obstacles: what is crossed.
+        keys: the key configuration of each.
+        walking: timing and shape of level walking.
+        crossing: of the crossing.
+        preview: weights of the ZMP tracking and the cart's height.
+        body: the robot.
+        context: scratch context of its plant.
+
+    Returns:
+        The plan and how well it does.
+    """
+    steps, end = time_steps(feet, footsteps, walking, crossing)
+    n = round(end / walking.period) + 1
+    time: Vector = np.arange(n, dtype=np.float64) * walking.period
+    zmp = zmp_reference(time, steps, feet, com, end, walking)
+    stride = max(1, round(crossing.sampling / walking.period))
+    rows = np.arange(0, n, stride)
+    ground = float(feet[:, 2].mean())
+    rpy = _waist_rpy(time, steps, feet, end, walking, crossing)
+    posture = _arm_swing(time[rows], steps, crossing, body)
+    start_waist = _waist_over(body, context, com, feet, rpy[0])
+
+    def feet_of(repairs: Repairs, at: Vector) -> Vector:
+        return _feet(at, steps, feet, obstacles, crossing, body, walking, repairs)
+
+    def waist_of(repairs: Repairs, at: Vector) -> Vector:
+        return _waist_height(at, steps, keys, start_waist[2], ground, repairs, end)
+
+    offset = np.tile(start_waist[:2] - com[:2], (len(rows), 1))
+    before = after = (0.0, 0.0)
+
+    def motion_of(repairs: Repairs) -> tuple[BodyMotion, ComMotion, Vector]:
+        """CWTG1, IK, UBMG and CWTG2 for one set of repairs."""
+        nonlocal before, after
+        waist_height = waist_of(repairs, time)
+        soles = feet_of(repairs, time[rows])
+        com_height = waist_height + (com[2] - start_waist[2])
+        factor = _factor(com_height, zmp[:, 2], walking.period)
+        single = generate_varying_height(
+            zmp[:, :2], factor, preview, rest_state(com[:2])
+        )
+        moved = single
+        guess = offset
+        errors = []
+        for stage in range(crossing.filter_stages + 1):
+            motion = body_motion(
+                body,
+                context,
+                moved.com[rows],
+                waist_height[rows],
+                rpy[rows],
+                soles,
+                posture,
+                guess,
+                rounds=1,
+            )
+            guess = motion.waist[:, :2] - motion.com[:, :2]
+            p_MB = body_zmp(
+                body, context, motion.q, zmp[rows, 2], stride * walking.period
+            )
+            error = zmp[rows, :2] - p_MB
+            errors.append(_worst(error, time[rows], steps))
+            if stage < crossing.filter_stages:
+                spread = CubicSpline(time[rows], p_MB)(time)
+                spread[rows[-1] :] = p_MB[-1]
+                moved = filter_motion_varying_height(
+                    moved, zmp[:, :2], spread, factor, preview
+                )
+        before, after = errors[0], errors[-1]
+        return motion, moved, soles
+
+    sections = tuple(section_of(obstacle) for obstacle in obstacles)
+
+    def gaps_of(motion: BodyMotion, soles: Vector, inflated: bool) -> Vector:
+        margins = crossing.feasibility
+        seen = tuple(
+            Section(s.width + 2.0 * margins.s_w, s.height + margins.s_h)
+            if inflated
+            else s
+            for s in sections
+        )
+        shifts = [margins.s_w if inflated else 0.0] * len(sections)
+        return leg_gaps(body.leg, motion.angles, soles, obstacles, seen, shifts, ground)
+
+    repairs, (motion, moved, soles) = adapt(
+        motion_of,
+        lambda motion, soles: gaps_of(motion, soles, True),
+        time[rows],
+        steps,
+        crossing.max_repairs,
+    )
+    true_gap = gaps_of(motion, soles, False)
+    report = CrossingReport(
+        gap=float(true_gap.min()) if true_gap.size else float("inf"),
+        short=float(motion.short.max()),
+        zmp_error_before=before,
+        zmp_error_after=after,
+        repairs=repairs,
+    )
+    height = CubicSpline(time[rows], motion.com[:, 2])
+    path = np.column_stack([moved.com, height(time)])
+    rate, acceleration = height(time, 1), height(time, 2)
+    poses = feet_of(repairs, time)
+    contacts = np.ones((n, 2))
+    for step in steps:
+        lift, land = (round(t / walking.period) for t in (step.lift, step.land))
+        contacts[lift:land, FEET.index(step.foot)] = 0.0
+    plan = MotionPlan(
+        start_time=0.0,
+        period=walking.period,
+        footsteps=footsteps,
+        phases=contact_phases(steps, end),
+        contacts=contacts,
+        foot_poses=poses,
+        contact_lengths=np.full((n, 2), body.robot.sole.length),
+        com=path,
+        com_velocity=np.column_stack([moved.velocity, rate]),
+        com_acceleration=np.column_stack([moved.acceleration, acceleration]),
+        zmp=zmp,
+        cart_zmp=moved.com - preview.com_height / GRAVITY * moved.acceleration,
+        waist=rpy,
+    )
+    return plan, report
+
+
+def _factor(com_height: Vector, zmp_height: Vector, period: float) -> Vector:
+    acceleration = np.gradient(np.gradient(com_height, period), period)
+    return height_factor(com_height, zmp_height, acceleration)
+
+
+def _waist_over(
+    body: WholeBody, context: Context, com: Vector, feet: Vector, rpy: Vector
+) -> Vector:
+    """Where the pelvis is when the CoM is at rest at `com`, (3,), m."""
+    height = com[2] - 0.02
+    waist = np.zeros(3)
+    for _ in range(8):
+        found = body_motion(
+            body,
+            context,
+            com[None, :2],
+            np.array([height]),
+            rpy[None],
+            feet[None],
+            {},
+            rounds=2,
+        )
+        height += com[2] - found.com[0, 2]
+        waist = found.waist[0]
+    return waist
+
+
+def _waist_height(
+    time: Vector,
+    steps: tuple[TimedStep, ...],
+    keys: tuple[KeyConfiguration, ...],
+    walking: float,
+    ground: float,
+    repairs: Repairs,
+    end: float,
+) -> Vector:
+    """From walking height to Z_hds in phase 1 and back in phase 3 (Sec. III-C1)."""
+    height = np.full(len(time), walking)
+    for step in steps:
+        if step.obstacle < 0:
+            continue
+        low = ground + keys[step.obstacle].Z_hds - repairs.lowered - walking
+        u = (time - step.lift) / (step.land - step.lift)
+        height += low * (third_order(u) if step.leads else -third_order(u))
+        if not step.leads and repairs.raised > 0.0:
+            middle = np.clip(u, 0.0, 1.0)
+            height += repairs.raised * 16.0 * middle**2 * (1.0 - middle) ** 2
+    return height
+
+
+def _waist_rpy(
+    time: Vector,
+    steps: tuple[TimedStep, ...],
+    feet: Vector,
+    end: float,
+    walking: MotionPlannerParams,
+    crossing: CrossingParams,
+) -> Vector:
+    """Yaw midway between the feet, and what a crossing adds (Sec. III-C3)."""
+    yaws = np.tile(feet[:, 5], (len(time), 1))
+    for step in steps:
+        i = FEET.index(step.foot)
+        u = (time - step.lift) / (step.land - step.lift)
+        turn = (step.end[5] - step.start[5] + np.pi) % (2.0 * np.pi) - np.pi
+        yaws[:, i] += turn * third_order(u)
+    rpy = np.zeros((len(time), 3))
+    shape = bump(time, steps)
+    rpy[:, 1] = crossing.lean * shape
+    rpy[:, 2] = yaws.mean(axis=1)
+    for step in steps:
+        if step.leads:
+            side = 1.0 if step.foot == "right" else -1.0
+            rpy[:, 2] += side * crossing.waist_yaw * shape
+            break
+    return rpy
+
+
+def _arm_swing(
+    time: Vector,
+    steps: tuple[TimedStep, ...],
+    crossing: CrossingParams,
+    body: WholeBody,
+) -> dict[str, Vector]:
+    """UBMG: shoulders that pitch back while the first foot crosses (Sec. III-D)."""
+    if crossing.arm_swing == 0.0:
+        return {}
+    shape = bump(time, steps)
+    return {
+        name: body.robot.posture.get(name, 0.0) + crossing.arm_swing * shape
+        for name in body.robot.posture
+        if name.endswith("SHOULDER_P")
+    }
+
+
+def _feet(
+    time: Vector,
+    steps: tuple[TimedStep, ...],
+    feet: Vector,
+    obstacles: tuple[Obstacle, ...],
+    crossing: CrossingParams,
+    body: WholeBody,
+    walking: MotionPlannerParams,
+    repairs: Repairs,
+) -> Vector:
+    """FTG for every step: sole poses, (n, 2, 6)."""
+    poses = np.tile(feet, (len(time), 1, 1))
+    margins = crossing.feasibility
+    for step in steps:
+        i = FEET.index(step.foot)
+        over = None
+        if step.obstacle >= 0:
+            obstacle = obstacles[step.obstacle]
+            x0, x1, top = section_of(obstacle).inflated(margins.s_w, margins.s_h)
+            front = front_distance(obstacle, step.start[:2]) + x0
+            over = Crossing(Section(x1 - x0, top), front, step.leads)
+        inside = (time >= step.lift) & (time <= step.land)
+        poses[inside, i] = foot_trajectory(
+            step.start,
+            step.end,
+            time[inside] - step.lift,
+            step.land - step.lift,
+            over,
+            body.leg.outline,
+            body.leg.sole.ankle_height,
+            crossing.feet,
+            0.0 if step.obstacle < 0 or step.leads else repairs.shift,
+        )
+        if step.obstacle >= 0 and not step.leads and repairs.path.size:
+            x_W = across(obstacles[step.obstacle].yaw)
+            u = (time[inside] - step.lift) / (step.land - step.lift)
+            push = np.interp(u, np.linspace(0.0, 1.0, len(repairs.path)), repairs.path)
+            poses[inside, i, :2] += push[:, None] * x_W
+        poses[time > step.land, i] = step.end
+    return poses
+
+
+def _worst(
+    error: Vector, time: Vector, steps: tuple[TimedStep, ...]
+) -> tuple[float, float]:
+    """Largest ZMP error from phase 1 to 3 of any crossing, x and y of W, m."""
+    inside = np.zeros(len(time), dtype=bool)
+    for step in steps:
+        if step.obstacle >= 0:
+            inside |= (time >= step.lift) & (time <= step.land)
+    if not inside.any():
+        return 0.0, 0.0
+    x, y = np.abs(error[inside]).max(axis=0)
+    return float(x), float(y)

@@ -1,0 +1,54 @@
+"""Parameters of a crossing: its timing, shape and margins."""
+
+from dataclasses import dataclass, field
+
+from models.validation import require_at_least, require_positive
+from systems.planning.feasibility_unit import FeasibilityParams
+from systems.planning.foot_trajectory_generator import FootTrajectoryParams
+
+
+@dataclass(kw_only=True)
+class CrossingParams:
+    """How obstacles are stepped over, besides how the robot walks."""
+
+    feasibility: FeasibilityParams = field(default_factory=FeasibilityParams)
+    """Of the feasibility unit."""
+    feet: FootTrajectoryParams = field(default_factory=FootTrajectoryParams)
+    """Of the feet trajectory generator."""
+    single_support: float = 1.3
+    """Phases 1 and 3, s (obstacle paper, Sec. V: 1.5)."""
+    double_support: float = 0.20
+    """Phase 2 and the double supports before and after, s (obstacle paper: 0.04)."""
+    waist_yaw: float = 0.0
+    """Turn of the waist in phase 2 towards the front foot's side, rad."""
+    arm_swing: float = 0.0
+    """How far the shoulders pitch back in phase 1, rad; brings the waist forward."""
+    lean: float = 0.0
+    """Forward pitch of the pelvis while crossing, rad."""
+    sampling: float = 0.010
+    """Of the whole-body motion that is planned, s; a multiple of the plan's period."""
+    filter_stages: int = 1
+    """How often the dynamic filter (CWTG2) is applied; the paper applies it once."""
+    least_gap: float = 0.033
+    """Least distance of the legs to the obstacle as it was seen for a motion to be
+    carried out, m: the paper's 3 cm and some millimetres of tracking error."""
+    most_short: float = 0.003
+    """Most that an ankle of the planned motion may be out of reach, m; the IK makes
+    that up in height."""
+    max_repairs: int = 12
+    """Repairs of each kind that the feet adaptor tries."""
+
+    def validate(self) -> None:
+        """Checks every field.
+
+        Raises:
+            ValueError: "field: reason, got x" for the first field that is wrong.
+        """
+        self.feasibility.validate()
+        self.feet.validate()
+        for name in ("single_support", "double_support", "sampling"):
+            require_positive(name, getattr(self, name), "s")
+        for name in ("waist_yaw", "arm_swing", "lean"):
+            require_at_least(name, getattr(self, name), 0.0)
+        require_at_least("filter_stages", self.filter_stages, 0)
+        require_at_least("max_repairs", self.max_repairs, 0)

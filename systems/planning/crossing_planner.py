@@ -1,0 +1,203 @@
+"""The crossing planner as a System: obstacles in, footsteps and motion out."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from time import perf_counter
+from typing import Any
+
+from pydrake.common.value import AbstractValue
+from pydrake.systems.framework import Context, LeafSystem, ValueProducer
+
+from systems.balance.zmp_preview import ZmpPreviewParams
+from systems.obstacle_values import ObstacleMap
+from systems.planning.crossing_footsteps import (
+    CrossingSteps,
+    in_the_way,
+    plan_crossing_steps,
+)
+from systems.planning.crossing_motion import CrossingReport, plan_crossing
+from systems.planning.crossing_params import CrossingParams
+from systems.planning.crossing_timing import section_of
+from systems.planning.feasibility_unit import feasibility_unit
+from systems.planning.footstep_params import FootstepPlannerParams
+from systems.planning.motion_params import MotionPlannerParams
+from systems.planning.whole_body_plan import WholeBody, waist_above_com
+from systems.plant_cache import declare_scratch_context
+from systems.ports import Vector, eval_abstract, eval_vector
+from systems.timing import timed
+from systems.values import FootstepPlan, MotionPlan, Value
+
+
+@dataclass(frozen=True, eq=False)
+class CrossingPlan(Value):
+    """What the planner has decided."""
+
+    footsteps: FootstepPlan
+    motion: MotionPlan
+    report: CrossingReport | None = None
+    """None where nothing was planned."""
+    times_ms: tuple[tuple[str, float], ...] = ()
+    """Wall time of FU and of FTG to FTA, ms."""
+
+
+class CrossingPlanner(LeafSystem):
+    """Walks to a goal over what lies in the way (obstacle paper, Algorithm 1).
+
+    .. pydrake_system::
+
+        name: CrossingPlanner
+        input_ports:
+        - obstacle_map
+        - goal
+        - foot_references
+        - com_reference
+        output_ports:
+        - footstep_plan
+        - motion_plan
+        - crossing_plan
+
+    - `obstacle_map`: what was seen, abstract ObstacleMap.
+    - `goal`: midpoint of the feet and heading at the end in W, (3,), m and rad.
+    - `foot_references`: sole frames X_WF that are tracked now, left then right, then
+      their rates, (24,).
+    - `com_reference`: p_WCom, v_WCom and a_WCom that are tracked now, (9,).
+    - `footstep_plan`: abstract FootstepPlan; infeasible, with the reason, where an
+      obstacle cannot be crossed.
+    - `motion_plan`: abstract MotionPlan that starts at time 0; it stands where there
+      are no footsteps.
+    - `crossing_plan`: both, with how well the motion does, abstract CrossingPlan.
+    """
+
+    def __init__(
+        self,
+        footsteps: FootstepPlannerParams,
+        walking: MotionPlannerParams,
+        crossing: CrossingParams,
+        preview: ZmpPreviewParams,
+        body: WholeBody,
+        standing: MotionPlan,
+    ) -> None:
+        """Declares the ports.
+
+        Args:
+            footsteps: reach and tolerances of walking.
+            walking: timing and shape of walking.
+            crossing: of the crossing.
+            preview: weights of the ZMP tracking.
+            body: the robot alone.
+            standing: a plan that stands.
+
+        Raises:
+            ValueError: a parameter is out of range.
+        """
+        super().__init__()
+        for params in (footsteps, walking, crossing, preview):
+            params.validate()
+        self._footsteps, self._walking = footsteps, walking
+        self._crossing, self._preview, self._body = crossing, preview, body
+        self._standing = standing
+        self._waist = walking.com_height + waist_above_com(body)
+        self._map = self.DeclareAbstractInputPort(
+            "obstacle_map", AbstractValue.Make(ObstacleMap())
+        )
+        self._goal = self.DeclareVectorInputPort("goal", 3)
+        self._feet = self.DeclareVectorInputPort("foot_references", 24)
+        self._com = self.DeclareVectorInputPort("com_reference", 9)
+        self._scratch = declare_scratch_context(self, body.plant)
+        nothing = CrossingPlan(FootstepPlan(), standing)
+        compute: Callable[..., None] = timed(self, self._calc)
+        self._plan = self.DeclareCacheEntry(
+            "plan",
+            ValueProducer(allocate=lambda: AbstractValue.Make(nothing), calc=compute),
+            {port.ticket() for port in (self._map, self._goal, self._feet, self._com)},
+        )
+        parts: tuple[tuple[str, Any, Callable[[CrossingPlan], object]], ...] = (
+            ("footstep_plan", FootstepPlan(), lambda plan: plan.footsteps),
+            ("motion_plan", standing, lambda plan: plan.motion),
+            ("crossing_plan", nothing, lambda plan: plan),
+        )
+        for name, model, part in parts:
+            self.DeclareAbstractOutputPort(
+                name,
+                lambda model=model: AbstractValue.Make(model),
+                self._part(part),
+                prerequisites_of_calc={self._plan.ticket()},
+            )
+
+    def _part(
+        self, part: Callable[[CrossingPlan], object]
+    ) -> Callable[[Context, AbstractValue], None]:
+        def calc(context: Context, output: AbstractValue) -> None:
+            plan: Any = self._plan.Eval(context)
+            output.set_value(part(plan))
+
+        return calc
+
+    def _calc(self, context: Context, output: AbstractValue) -> None:
+        obstacles = eval_abstract(self._map, context, ObstacleMap)
+        goal = eval_vector(self._goal, context)
+        feet = eval_vector(self._feet, context)[:12].reshape(2, 6)
+        com = eval_vector(self._com, context)[:3]
+        output.set_value(self._decide(obstacles, goal, feet, com, context))
+
+    def _decide(
+        self,
+        seen: ObstacleMap,
+        goal: Vector,
+        feet: Vector,
+        com: Vector,
+        context: Context,
+    ) -> CrossingPlan:
+        if seen.status == "no floor":
+            reason = "no floor was seen"
+            return CrossingPlan(FootstepPlan((), "infeasible", reason), self._standing)
+        start = perf_counter()
+        sole = self._body.robot.sole
+        ahead = in_the_way(seen.obstacles, feet[:, :2].mean(axis=0), goal[:2], sole)
+        answers = tuple(
+            feasibility_unit(
+                section_of(obstacle),
+                self._waist,
+                self._body.leg,
+                self._crossing.feasibility,
+            )
+            for obstacle in ahead
+        )
+        steps = plan_crossing_steps(feet, goal, ahead, answers, sole, self._footsteps)
+        asked = perf_counter()
+        if steps.plan.status != "planned":
+            return CrossingPlan(steps.plan, self._standing)
+        motion, report = plan_crossing(
+            feet,
+            com,
+            steps.plan.footsteps,
+            steps.obstacles,
+            steps.keys,
+            self._walking,
+            self._crossing,
+            self._preview,
+            self._body,
+            self._scratch(context),
+        )
+        done = perf_counter()
+        times = (("FU", 1e3 * (asked - start)), ("FTG to FTA", 1e3 * (done - asked)))
+        refusal = self._refusal(steps, report)
+        if refusal:
+            plan = FootstepPlan((), "infeasible", refusal)
+            return CrossingPlan(plan, self._standing, report, times)
+        return CrossingPlan(steps.plan, motion, report, times)
+
+    def _refusal(self, steps: CrossingSteps, report: CrossingReport) -> str:
+        """Why the motion is not to be carried out; empty where it is."""
+        if not steps.obstacles:
+            return ""
+        highest = max(obstacle.height for obstacle in steps.obstacles)
+        what = f"the obstacle of {highest:.2f} m cannot be crossed"
+        if report.gap < self._crossing.least_gap:
+            return (
+                f"{what}: a leg comes within {1e3 * report.gap:.0f} mm of it, less "
+                f"than {1e3 * self._crossing.least_gap:.0f} mm, after all repairs"
+            )
+        if report.short > self._crossing.most_short:
+            return f"{what}: a leg is {1e3 * report.short:.0f} mm too short"
+        return ""
