@@ -20,7 +20,7 @@ from systems.planning.path_executive import (
     remaining_footsteps,
 )
 from systems.room_values import Environment, ObstacleBox, PathPlan
-from systems.values import Footstep, FootstepPlan, MotionPlan, ContactPhase, TaskStatus
+from systems.values import ContactPhase, Footstep, FootstepPlan, MotionPlan, TaskStatus
 
 SOLE = Sole(heel=0.10, toe=0.15, half_width=0.05, ankle_height=0.1)
 PARAMS = PathExecutiveParams(settle_time=0.4, look_period=0.5, body_radius=0.2)
