@@ -10,7 +10,7 @@ from pydrake.math import RigidTransform, RollPitchYaw
 
 from models.jvrc1 import JVRC1
 from systems.balance.zmp_preview import ZmpPreviewParams
-from systems.planning.motion import plan_motion, schedule
+from systems.planning.motion import middle_zmp, plan_motion, schedule, stance_zmp
 from systems.planning.motion_params import MotionPlannerParams
 from systems.ports import Vector
 from systems.values import FEET, Foot, Footstep, MotionPlan
@@ -265,3 +265,23 @@ def test_com_height_rises_with_the_stance() -> None:
     assert height[-1] == pytest.approx(0.4 + PARAMS.com_height)
     highest = motion.foot_poses[..., 2].max(axis=1)
     assert (height <= highest + PARAMS.com_height + 1e-9).all()
+
+
+@pytest.mark.parametrize(("foot", "side"), [("left", -1.0), ("right", 1.0)])
+def test_zmp_in_single_support_is_ahead_and_towards_the_other_foot(
+    foot: Foot, side: float
+) -> None:
+    """Seen in the foot, wherever it points; at its own height."""
+    pose = np.array([1.0, 2.0, 0.3, 0.0, 0.0, 0.8])
+    X_WF = RigidTransform(RollPitchYaw(pose[3:]), pose[:3])
+    p_F = X_WF.inverse().multiply(stance_zmp(pose, foot, 0.06, PARAMS))
+    np.testing.assert_allclose(p_F, [0.06, side * PARAMS.zmp_inward, 0.0], atol=1e-12)
+    middle = middle_zmp(START + np.array([0, 0, 0.1, 0, 0, 0]), PARAMS)
+    np.testing.assert_allclose(middle, [0.39 + PARAMS.zmp_forward, 0.0, 0.1])
+
+
+def test_a_plan_that_ends_astride_keeps_to_the_lower_foot() -> None:
+    """So that the rear leg still reaches the ground."""
+    motion = plan_motion(START, COM, CLIMB[:1], EDGES, PARAMS, PREVIEW, JVRC1)
+    assert motion.foot_poses[-1, :, 2].tolist() == [0.0, 0.2]
+    assert motion.com[-1, 2] == pytest.approx(PARAMS.com_height)
