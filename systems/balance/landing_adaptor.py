@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from pydrake.systems.framework import BasicVector, Context, DiscreteValues, LeafSystem
 
+from models.validation import require_at_least, require_positive
 from systems.ports import Vector, eval_vector, set_vector
 from systems.timing import timed
 
@@ -47,13 +48,9 @@ class LandingParams:
             ValueError: "field: reason, got x" for the first field that is wrong.
         """
         for name in ("period", "touch_force", "search_speed", "release_time"):
-            if not 0.0 < getattr(self, name) < np.inf:
-                raise ValueError(f"{name}: must be positive, got {getattr(self, name)}")
+            require_positive(name, getattr(self, name))
         for name in ("blind_time", "search_depth", "swing_gain", "swing_limit"):
-            if not 0.0 <= getattr(self, name) < np.inf:
-                raise ValueError(
-                    f"{name}: must not be negative, got {getattr(self, name)}"
-                )
+            require_at_least(name, getattr(self, name), 0.0)
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,12 @@ import numpy as np
 from pydrake.systems.framework import BasicVector, Context, LeafSystem
 
 from models.robot import Sole
-from systems.balance.wrench_distribution import DistributionParams, distribute_wrench
+from models.validation import require_at_least
+from systems.balance.wrench_distribution import (
+    DistributionParams,
+    TorqueMap,
+    distribute_wrench,
+)
 from systems.balance.zmp_preview import GRAVITY
 from systems.ports import Vector, eval_vector, set_vector
 from systems.timing import timed
@@ -32,10 +37,7 @@ class StabilizerParams:
             ValueError: "field: reason, got x" for the first field that is wrong.
         """
         for name in ("dcm_gain", "height_stiffness", "height_damping"):
-            if not 0.0 <= getattr(self, name) < np.inf:
-                raise ValueError(
-                    f"{name}: must not be negative, got {getattr(self, name)}"
-                )
+            require_at_least(name, getattr(self, name), 0.0)
         self.distribution.validate()
 
 
@@ -111,6 +113,7 @@ class Stabilizer(LeafSystem):
         - contacts
         - foot_references
         - momentum_rate
+        - leg_torque_map
         output_ports:
         - foot_wrenches
         - dcm
@@ -126,6 +129,9 @@ class Stabilizer(LeafSystem):
     - `foot_references`: sole frames X_WF, left then right, then their rates, (24,).
     - `momentum_rate`: rate of angular momentum about the CoM of the planned
       whole-body motion, in W, (3,), Nm.
+    - `leg_torque_map`: torques of k leg joints without foot wrenches, (k,), Nm, then,
+      row by row, the matrix (k, 12) by which foot wrenches lessen them, (13 k,); read
+      only where `distribution.torque_cost` is not 0.
     - `foot_wrenches`: wrench of the ground wanted on left and right foot, each force
       then moment about F, in W, (12,), N and Nm.
     - `dcm`: measured horizontal DCM, (2,), m.
@@ -133,13 +139,16 @@ class Stabilizer(LeafSystem):
     - `zmp_command`: ZMP that the feedback asks for, (2,), m.
     """
 
-    def __init__(self, params: StabilizerParams, sole: Sole, mass: float) -> None:
+    def __init__(
+        self, params: StabilizerParams, sole: Sole, mass: float, leg_joints: int = 12
+    ) -> None:
         """Declares the ports.
 
         Args:
             params: gains.
             sole: of both feet.
             mass: of the robot, kg.
+            leg_joints: k, how many joints `leg_torque_map` is about.
 
         Raises:
             ValueError: a parameter is out of range.
@@ -154,6 +163,9 @@ class Stabilizer(LeafSystem):
         self._contacts = self.DeclareVectorInputPort("contacts", 4)
         self._feet = self.DeclareVectorInputPort("foot_references", 24)
         self._momentum_rate = self.DeclareVectorInputPort("momentum_rate", 3)
+        self._torque_map = self.DeclareVectorInputPort(
+            "leg_torque_map", 13 * leg_joints
+        )
         feedback = {
             port.ticket()
             for port in (self._com, self._velocity, self._reference, self._zmp)
@@ -165,7 +177,12 @@ class Stabilizer(LeafSystem):
             prerequisites_of_calc=feedback
             | {
                 port.ticket()
-                for port in (self._contacts, self._feet, self._momentum_rate)
+                for port in (
+                    self._contacts,
+                    self._feet,
+                    self._momentum_rate,
+                    self._torque_map,
+                )
             },
         )
         for name, calc in (
@@ -201,8 +218,16 @@ class Stabilizer(LeafSystem):
             contacts[2:],
             self._sole,
             self._params.distribution,
+            self._leg_torques(context),
         )
         set_vector(output, wrenches.ravel())
+
+    def _leg_torques(self, context: Context) -> TorqueMap | None:
+        if self._params.distribution.torque_cost == 0.0:
+            return None
+        values = eval_vector(self._torque_map, context)
+        joints = len(values) // 13
+        return TorqueMap(values[:joints], values[joints:].reshape(joints, 12))
 
     def _calc_dcm(self, context: Context, output: BasicVector) -> None:
         set_vector(output, self._command(context).dcm)

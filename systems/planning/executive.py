@@ -9,6 +9,7 @@ import numpy as np
 from pydrake.common.value import AbstractValue
 from pydrake.systems.framework import BasicVector, Context, LeafSystem, State
 
+from models.validation import require_at_least, require_positive
 from systems.ports import eval_abstract, eval_vector, set_vector
 from systems.timing import timed
 from systems.values import FootstepPlan, MotionPlan, TaskStatus, Value
@@ -29,12 +30,8 @@ class ExecutiveParams:
         Raises:
             ValueError: "field: reason, got x" for the first field that is wrong.
         """
-        if not self.period > 0.0:
-            raise ValueError(f"period: must be positive, got {self.period}")
-        if not self.settle_time >= 0.0:
-            raise ValueError(
-                f"settle_time: must not be negative, got {self.settle_time}"
-            )
+        require_positive("period", self.period, "s")
+        require_at_least("settle_time", self.settle_time, 0.0, "s")
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,6 +11,7 @@ from pydrake.common.value import AbstractValue
 from pydrake.systems.framework import Context, LeafSystem, State
 
 from models.robot import Sole
+from models.validation import require_at_least, require_positive
 from systems.planning.foothold import sole_corners
 from systems.ports import eval_abstract, eval_vector
 from systems.room_values import Environment, PathPlan
@@ -43,15 +44,10 @@ class PathExecutiveParams:
             ValueError: "field: reason, got x" for the first field that is wrong.
         """
         for name in ("period", "look_period"):
-            if not getattr(self, name) > 0.0:
-                raise ValueError(f"{name}: must be positive, got {getattr(self, name)}")
+            require_positive(name, getattr(self, name))
         for name in ("settle_time", "body_radius"):
-            if not getattr(self, name) >= 0.0:
-                raise ValueError(
-                    f"{name}: must not be negative, got {getattr(self, name)}"
-                )
-        if not self.most_plans >= 1:
-            raise ValueError(f"most_plans: must be at least 1, got {self.most_plans}")
+            require_at_least(name, getattr(self, name), 0.0)
+        require_at_least("most_plans", self.most_plans, 1)
 
 
 @dataclass(frozen=True, eq=False)

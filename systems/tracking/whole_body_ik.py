@@ -15,6 +15,7 @@ from pydrake.multibody.tree import JacobianWrtVariable
 from pydrake.systems.framework import Context
 
 from models.robot import RobotModel
+from models.validation import require_at_least, require_positive
 from systems.ports import Vector
 from systems.values import FEET
 
@@ -58,8 +59,7 @@ class IkParams:
             ValueError: "field: reason, got x" for the first field that is wrong.
         """
         for name in ("period", "com_weight", "height_weight", "damping", "gain"):
-            if not 0.0 < getattr(self, name) < np.inf:
-                raise ValueError(f"{name}: must be positive, got {getattr(self, name)}")
+            require_positive(name, getattr(self, name))
         for name in (
             "waist_weight",
             "waist_yaw_weight",
@@ -69,10 +69,7 @@ class IkParams:
             "posture_gain",
             "position_margin",
         ):
-            if not 0.0 <= getattr(self, name) < np.inf:
-                raise ValueError(
-                    f"{name}: must not be negative, got {getattr(self, name)}"
-                )
+            require_at_least(name, getattr(self, name), 0.0)
         if not 0.0 < self.speed_share <= 1.0:
             raise ValueError(f"speed_share: must lie in (0, 1], got {self.speed_share}")
 

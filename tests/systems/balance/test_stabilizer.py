@@ -176,7 +176,7 @@ def test_outputs_are_the_core_s() -> None:
 @pytest.mark.parametrize("value", [-1.0, np.inf, np.nan])
 def test_parameters_out_of_range_are_refused(field: str, value: float) -> None:
     """By name; those of the distribution too."""
-    with pytest.raises(ValueError, match=rf"^{field}: must not be negative, got"):
+    with pytest.raises(ValueError, match=rf"^{field}: must be "):
         Stabilizer(StabilizerParams(**{field: value}), JVRC1.sole, MASS)
     params = StabilizerParams()
     params.distribution.friction = 0.0
