@@ -368,5 +368,5 @@ def test_integrate_follows_the_velocity(standing) -> None:
 )
 def test_parameters_out_of_range_are_refused(standing, field: str, value) -> None:
     """By name, when the IK is made."""
-    with pytest.raises(ValueError, match=f"^{field}: .*{value}"):
+    with pytest.raises(ValueError, match=f"^{field}: .*{value:g}"):
         WholeBodyIk(standing.plant, JVRC1, IkParams(**{field: value}))
