@@ -356,5 +356,7 @@ def _bad_input_errors() -> tuple[type[Exception], ...]:
     from diagrams.scenario import ScenarioError
     from diagrams.signals import RunError
     from systems.perception.cloud_files import CloudFileError
+    from systems.perception.environment_xml import EnvironmentFileError
 
-    return ScenarioError, RunError, CloudFileError, OptionError, OSError
+    own = (ScenarioError, RunError, CloudFileError, EnvironmentFileError, OptionError)
+    return *own, OSError

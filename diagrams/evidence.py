@@ -14,6 +14,7 @@ from diagrams.task_diagram import TaskDiagram
 from diagrams.true_motion import TrueMotion, true_motion
 from models.staircase import Tread
 from systems.ports import Vector
+from systems.room_values import Environment
 from systems.values import PlaneSegmentation, Staircase, TaskStatus, Touch, Touches
 
 Stop: TypeAlias = Literal[
@@ -24,6 +25,8 @@ Stop: TypeAlias = Literal[
 STATE_SIGNAL = "plant.state"
 """Positions, then velocities of the robot: a run that does not log them cannot be
 judged."""
+MOVERS_SIGNAL = "movers.state"
+"""Where the boxes that move are, x and y of each in turn, then their rates."""
 
 
 @dataclass(frozen=True)
@@ -63,6 +66,8 @@ class Evidence:
     """What perception saw, one entry a frame; empty where that was not logged."""
     staircases: tuple[Staircase, ...] = ()
     """What was made of it, one entry a change."""
+    environments: tuple[tuple[float, Environment], ...] = ()
+    """When, s, the room was looked at, and what was seen, one entry a look."""
 
 
 def gather(
@@ -71,7 +76,7 @@ def gather(
     """Gathers what there is to know about a simulation that has stopped.
 
     Abstract signals are found by the type of what they carry (`Touches`, `TaskStatus`,
-    `PlaneSegmentation`, `Staircase`).
+    `PlaneSegmentation`, `Staircase`, `Environment`).
 
     Args:
         task: the closed loop.
@@ -113,6 +118,11 @@ def gather(
         ),
         staircases=tuple(
             entry.value for entry in entries if isinstance(entry.value, Staircase)
+        ),
+        environments=tuple(
+            (entry.time, entry.value)
+            for entry in entries
+            if isinstance(entry.value, Environment) and entry.value != Environment()
         ),
     )
 

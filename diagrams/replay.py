@@ -7,8 +7,9 @@ from pydrake.geometry import Meshcat, MeshcatVisualizer, MeshcatVisualizerParams
 from pydrake.multibody.plant import AddMultibodyPlantSceneGraph
 from pydrake.systems.framework import DiagramBuilder
 
-from diagrams.evidence import STATE_SIGNAL
+from diagrams.evidence import MOVERS_SIGNAL, STATE_SIGNAL
 from diagrams.signals import RunError, load_run
+from models.mover import add_movers
 from models.robot import RobotModel
 from models.robot_loader import add_robot
 from models.scene import SceneParams
@@ -24,7 +25,11 @@ MAX_FRAMES = 2500
 
 
 def replay_html(
-    robot: RobotModel, scene: SceneParams, time: Vector, state: Vector
+    robot: RobotModel,
+    scene: SceneParams,
+    time: Vector,
+    state: Vector,
+    movers: Vector | None = None,
 ) -> str:
     """A self-contained page that plays the robot's motion in its scene.
 
@@ -35,9 +40,12 @@ def replay_html(
         scene: what stands around it.
         time: of the samples, (n,), s.
         state: positions, then velocities of the robot, (n, nq + nv).
+        movers: x and y of each box that moves, in turn, (n, 2 k), m; None leaves them
+            where they stand at first.
 
     Raises:
-        ValueError: the state has another size than the robot's.
+        ValueError: the state has another size than the robot's, or the movers than
+            the scene's.
     """
     builder = DiagramBuilder()
     plant, scene_graph = AddMultibodyPlantSceneGraph(builder, time_step=0.0)
@@ -45,11 +53,17 @@ def replay_html(
         plant, (solid for solid in scene.solids() if not _hides_the_view(solid.name))
     )
     instance = add_robot(plant, scene_graph, robot)
+    moving = add_movers(plant, scene.movers)
     plant.Finalize()
     size = plant.num_multibody_states(instance)
     if state.shape != (len(time), size):
         raise ValueError(
             f"state: expected shape ({len(time)}, {size}), got {state.shape}"
+        )
+    if movers is not None and movers.shape != (len(time), 2 * len(scene.movers)):
+        raise ValueError(
+            f"movers: expected shape ({len(time)}, {2 * len(scene.movers)}), "
+            f"got {movers.shape}"
         )
     positions = state[:, : plant.num_positions(instance)]
     rate = min(FRAME_RATE, MAX_FRAMES / max(float(time[-1] - time[0]), 1e-3))
@@ -69,6 +83,8 @@ def replay_html(
         sample = int(np.searchsorted(time, moment))
         context.SetTime(float(moment))
         plant.SetPositions(plant_context, instance, positions[sample])
+        if movers is not None:
+            plant.SetPositions(plant_context, moving, movers[sample])
         diagram.ForcedPublish(context)
     visualizer.StopRecording()
     visualizer.PublishRecording()
@@ -88,7 +104,15 @@ def replay_run(folder: Path) -> Path:
         raise RunError(f"{folder}: the run did not log {STATE_SIGNAL}")
     samples = run.signals[STATE_SIGNAL].to_numpy(dtype=np.float64)
     robot, scene = run.scenario.robot.model(), run.scenario.scene
-    html = replay_html(robot, scene, samples[:, 0], samples[:, 1:])
+    movers: Vector | None = None
+    if MOVERS_SIGNAL in run.signals:
+        logged = run.signals[MOVERS_SIGNAL].to_numpy(dtype=np.float64)
+        columns = logged[:, 1 : 1 + 2 * len(scene.movers)].T
+        movers = np.stack(
+            [np.interp(samples[:, 0], logged[:, 0], column) for column in columns],
+            axis=1,
+        )
+    html = replay_html(robot, scene, samples[:, 0], samples[:, 1:], movers)
     path = folder / REPLAY_FILE
     partial = path.with_suffix(".partial")
     partial.write_text(html, encoding="utf-8")

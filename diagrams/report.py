@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
 from diagrams.measures import LIFTED, contact_intervals, measured_zmp
+from diagrams.room_view import draw_room
 from diagrams.run_data import RunData, read_run_data
 from models.staircase import Tread
 from systems.ports import Vector
@@ -21,7 +22,12 @@ DPI = 120
 COLORS: dict[Foot, str] = {"left": "#1971c2", "right": "#d9480f"}
 COM, DCM, ZMP = "#212529", "#2f9e44", "#9c36b5"
 TREAD = "#c2a06e"
-ACTIVITY_COLORS = {"scan": "#e7f5ff", "plan": "#fff3bf"}
+ACTIVITY_COLORS = {
+    "scan": "#e7f5ff",
+    "plan": "#fff3bf",
+    "look": "#e7f5ff",
+    "stop": "#ffe3e3",
+}
 SHOWN_JOINTS = 6
 """How many joints have a colour of their own; the others are grey."""
 
@@ -30,9 +36,9 @@ def plot_run(folder: Path) -> list[Path]:
     """Draws the figures of a run into its folder `figures`; gives their paths.
 
     `balance.png` CoM, DCM and ZMP over time against the support; `top_view.png` treads,
-    footsteps and CoM from above; `side_view.png` how the feet passed the steps;
-    `feet.png` heights of and forces on the feet; `joints.png` torques and speeds as
-    shares of their limits. What was not logged is left out of them.
+    boxes, path, footsteps and CoM from above; `side_view.png` how the feet passed the
+    steps; `feet.png` heights of and forces on the feet; `joints.png` torques and speeds
+    as shares of their limits. What was not logged is left out of them.
 
     Raises:
         RunError: the folder holds no run, or one without the plant's state.
@@ -88,9 +94,10 @@ def balance_figure(data: RunData) -> Figure:
 
 
 def top_view(data: RunData) -> Figure:
-    """Treads, footsteps, CoM and ZMP from above."""
+    """Treads, boxes, trees, path, footsteps, CoM and ZMP from above."""
     figure = _figure(11.0, 6.5)
     ax = figure.subplots()
+    draw_room(ax, data.run)
     for tread in data.treads:
         _draw_rectangle(ax, tread)
     for foot in FEET:

@@ -1,26 +1,19 @@
 """Cross a cluttered room that a ceiling camera sees (room paper, closed loop)."""
 
-import dataclasses
-
 import numpy as np
 from pydrake.common.value import AbstractValue
 from pydrake.geometry import Meshcat, MeshcatVisualizer
 from pydrake.systems.framework import DiagramBuilder
 from pydrake.systems.primitives import ConstantValueSource, ConstantVectorSource
 
+from diagrams.evidence import MOVERS_SIGNAL
+from diagrams.room_perception import add_perception
 from diagrams.scenario import ROBOTS, Scenario
-from diagrams.station import add_station, mover_meshes
+from diagrams.station import add_station
 from diagrams.task_diagram import TaskDiagram
 from diagrams.walking import add_walking, initial_stand
-from diagrams.walking_signals import VALUE_PERIOD, record_walking
+from diagrams.walking_signals import SIGNAL_PERIOD, VALUE_PERIOD, record_walking
 from diagrams.wiring import add_system
-from models.robot_loader import body_meshes
-from models.solids import triangle_mesh
-from systems.perception.depth_cloud import DepthCloud
-from systems.perception.environment_exchange import EnvironmentExchange
-from systems.perception.floor_extractor import FloorExtractor
-from systems.perception.obstacle_clusterer import ObstacleClusterer
-from systems.perception.scan_assembler import box_around
 from systems.planning.motion import plan_motion
 from systems.planning.motion_planner import MotionPlanner
 from systems.planning.motion_stop import stop_early
@@ -28,8 +21,6 @@ from systems.planning.path_executive import PathExecutive
 from systems.planning.path_footstep_planner import PathFootstepPlanner
 from systems.planning.path_planner import PathPlanner
 from systems.ports import Vector
-from systems.sensing.depth_camera import DepthCamera
-from systems.sensing.ray_caster import BodyMesh
 from systems.tracking.whole_body_ik import WholeBodyIk
 from systems.values import MotionPlan, Staircase
 
@@ -48,6 +39,9 @@ def build_room_crossing(
 
     Returns:
         The diagram, its default context where the robot starts.
+
+    Raises:
+        EnvironmentFileError: the scenario's environment cannot be read.
     """
     params = scenario.parameters
     robot = ROBOTS[scenario.robot.name]
@@ -56,59 +50,7 @@ def build_room_crossing(
     station = add_station(
         builder, scenario, robot, params.ik.period, FORBIDDEN, soles_allowed=False
     )
-    plant = station.plant
-    meshes = [
-        BodyMesh(
-            int(plant.GetBodyByName(mesh.body, station.instance).index()),
-            mesh.vertices,
-            mesh.triangles.astype(np.int64),
-        )
-        for mesh in body_meshes(robot)
-    ]
-    lens = scenario.sensors.camera
-    camera = add_system(
-        builder,
-        "depth_camera",
-        DepthCamera(
-            dataclasses.replace(lens, seed=lens.seed + scenario.simulation.seed),
-            scene=triangle_mesh(scenario.scene.solids()),
-            body_meshes=[*meshes, *mover_meshes(scenario, plant)],
-        ),
-    )
-    builder.Connect(
-        plant.get_body_poses_output_port(),  # type: ignore[no-untyped-call]
-        camera.GetInputPort("body_poses"),
-    )
-    cloud = add_system(
-        builder,
-        "depth_cloud",
-        DepthCloud(
-            params.depth_cloud,
-            [box_around(mesh.body_index, mesh.vertices) for mesh in meshes],
-        ),
-    )
-    builder.Connect(
-        camera.GetOutputPort("depth_image"), cloud.GetInputPort("depth_image")
-    )
-    builder.Connect(
-        camera.GetOutputPort("frame_body_poses"), cloud.GetInputPort("body_poses")
-    )
-    floor = add_system(builder, "floor_extractor", FloorExtractor(params.floor))
-    clusters = add_system(
-        builder, "obstacle_clusterer", ObstacleClusterer(params.obstacles)
-    )
-    for port in ("cloud", "viewpoint"):
-        builder.Connect(cloud.GetOutputPort(port), floor.GetInputPort(port))
-    builder.Connect(
-        cloud.GetOutputPort("viewpoint"), clusters.GetInputPort("viewpoint")
-    )
-    for port in ("floor", "obstacles"):
-        builder.Connect(floor.GetOutputPort(port), clusters.GetInputPort(port))
-    exchange = add_system(builder, "environment_exchange", EnvironmentExchange())
-    builder.Connect(
-        clusters.GetOutputPort("environment"), exchange.GetInputPort("environment")
-    )
-    environment = exchange.GetOutputPort("environment")
+    frame, environment = add_perception(builder, scenario, station)
 
     goal: Vector = np.array(scenario.task.goal, dtype=np.float64)
     goal_source = add_system(builder, "goal", ConstantVectorSource(goal))
@@ -170,7 +112,7 @@ def build_room_crossing(
         "executive",
         PathExecutive(params.path_executive, robot.sole, standing, stop),
     )
-    builder.Connect(camera.GetOutputPort("frame"), executive.GetInputPort("frame"))
+    builder.Connect(frame, executive.GetInputPort("frame"))
     builder.Connect(environment, executive.GetInputPort("environment"))
     for source, port in (
         (path, "path_plan"),
@@ -194,14 +136,25 @@ def build_room_crossing(
             f"executive.{port}", executive.GetOutputPort(port), VALUE_PERIOD
         )
 
+    if scenario.scene.movers:
+        names = station.plant.GetStateNames(station.movers, False)
+        half = len(names) // 2
+        recorder.add_vector(
+            MOVERS_SIGNAL,
+            station.plant.get_state_output_port(station.movers),
+            tuple(names),
+            ("m",) * half + ("m/s",) * half,
+            SIGNAL_PERIOD,
+        )
+
     if meshcat is not None:
         MeshcatVisualizer.AddToBuilder(builder, station.scene_graph, meshcat)
-    plant.SetDefaultPositions(station.instance, stand.positions)
+    station.plant.SetDefaultPositions(station.instance, stand.positions)
     diagram = builder.Build()
     diagram.set_name("room_crossing")
     return TaskDiagram(
         diagram=diagram,
-        plant=plant,
+        plant=station.plant,
         robot_instance=station.instance,
         robot=robot,
         scene=scenario.scene,

@@ -11,6 +11,7 @@ import numpy as np
 from pydrake.common.yaml import yaml_dump, yaml_dump_typed, yaml_load_typed
 
 from diagrams.schema import FieldError, Mapping, check, parse_yaml, set_field, validate
+from diagrams.task_params import TaskParams
 from models.jvrc1 import JVRC1
 from models.robot import RobotModel
 from models.room_obstacles import place_boxes
@@ -20,7 +21,6 @@ from models.staircase import StaircaseParams
 from models.validation import (
     require_at_least,
     require_finite,
-    require_length,
     require_one_of,
     require_positive,
 )
@@ -30,7 +30,7 @@ from systems.balance.zmp_preview import ZmpPreviewParams
 from systems.perception.boxes import ObstacleClustererParams
 from systems.perception.depth_cloud import DepthCloudParams
 from systems.perception.floor import FloorParams
-from systems.perception.obstacle_finder import ObstacleFinderParams
+from systems.perception.obstacles import ObstacleFinderParams
 from systems.perception.scan_assembler import ScanAssemblerParams
 from systems.perception.segmenter_params import PlaneSegmenterParams
 from systems.perception.staircase_merging import StaircaseMapParams
@@ -46,10 +46,6 @@ from systems.tracking.whole_body_ik import IkParams
 
 ROBOTS: dict[str, RobotModel] = {"jvrc1": JVRC1}
 """The robots that a scenario may name."""
-TASKS = ("stair_climbing", "room_crossing", "obstacle_crossing")
-"""What a robot may be asked to do."""
-MODES = ("dynamic",)
-"""How it may do it."""
 
 
 class ScenarioError(ValueError):
@@ -93,61 +89,6 @@ class SensorsParams:
     """The room's ceiling camera; "room_crossing" only."""
     lidar: TiltingLidarParams = field(default_factory=TiltingLidarParams)
     """The scanner on its head. `simulation.seed` is added to its seed."""
-
-
-@dataclass(kw_only=True)
-class PushParams:
-    """A push to withstand: a constant force at a body's centre of mass."""
-
-    time: float = 5.0
-    """When it begins, s."""
-    duration: float = 0.1
-    """How long it lasts, s."""
-    force: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
-    """The force, along W's axes, N."""
-    body: str = JVRC1.torso_body
-    """The link of the robot that is pushed."""
-
-    def validate(self) -> None:
-        """Checks every field.
-
-        Raises:
-            ValueError: "field: reason, got x" for the first field that is wrong.
-        """
-        require_at_least("time", self.time, 0.0, "s")
-        require_positive("duration", self.duration, "s")
-        require_length("force", self.force, 3)
-
-
-@dataclass(kw_only=True)
-class TaskParams:
-    """What the robot is to do."""
-
-    kind: str = "stair_climbing"
-    """What: "stair_climbing", up the staircase to its top tread; "room_crossing", over
-    the floor to `goal`; "obstacle_crossing", the same over what lies in the way."""
-    mode: str = "dynamic"
-    """How: "dynamic", with a moving ZMP under a stabiliser."""
-    steps_between_scans: int = 2
-    """How many treads are climbed before the robot stands and scans again."""
-    goal: list[float] = field(default_factory=lambda: [2.5, 0.0, 0.0])
-    """Where the midpoint of the feet is to come to and the heading there, in W, x, y,
-    yaw, m and rad; not in "stair_climbing"."""
-    pushes: list[PushParams] = field(default_factory=list)
-    """Pushes on the way."""
-
-    def validate(self) -> None:
-        """Checks every field.
-
-        Raises:
-            ValueError: "field: reason, got x" for the first field that is wrong.
-        """
-        require_one_of("kind", self.kind, TASKS)
-        require_one_of("mode", self.mode, MODES)
-        require_at_least("steps_between_scans", self.steps_between_scans, 1)
-        require_length("goal", self.goal, 3)
-        for index, value in enumerate(self.goal):
-            require_finite(f"goal[{index}]", value)
 
 
 @dataclass(kw_only=True)

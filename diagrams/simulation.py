@@ -3,7 +3,7 @@
 import os
 import shutil
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from time import perf_counter
@@ -12,8 +12,9 @@ from typing import TypeAlias
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import Context
 
-from diagrams.evidence import Stop, gather
+from diagrams.evidence import Evidence, Stop, gather
 from diagrams.outcome import has_fallen, judge
+from diagrams.room_summary import room_perception, stage_ms
 from diagrams.scenario import Scenario, save_scenario
 from diagrams.signals import SCENARIO_FILE, SIGNALS_FOLDER, SUMMARY_FILE
 from diagrams.summary import (
@@ -23,7 +24,7 @@ from diagrams.summary import (
     timing_us,
 )
 from diagrams.task_diagram import TaskDiagram
-from systems.values import FEET
+from systems.values import FEET, Json
 
 SETTLE_TIME = 0.5
 """For how long a finished task is watched on, s."""
@@ -183,9 +184,17 @@ def summarize(task: TaskDiagram, scenario: Scenario, simulated: Simulated) -> Su
         simulated_time_s=simulated_time,
         wall_time_s=simulated.wall_time,
         real_time_factor=simulated_time / simulated.wall_time or None,
-        perception=perception_summary(
-            evidence.segmentations, evidence.staircases, evidence.treads
-        ),
+        perception=_perception(task, evidence),
         timing_us=timing_us(task.diagram),
         versions=installed_versions(),
+    )
+
+
+def _perception(task: TaskDiagram, evidence: Evidence) -> Mapping[str, Json] | None:
+    """How the stairs or the room were seen; None where neither was."""
+    ms_per_frame = stage_ms(task.diagram, len(evidence.environments))
+    if ms_per_frame:
+        return room_perception(evidence.environments, task.scene, ms_per_frame)
+    return perception_summary(
+        evidence.segmentations, evidence.staircases, evidence.treads
     )

@@ -57,6 +57,8 @@ class Station:
     kinematics: KinematicState
     wrench_sensor: FootWrenchSensor
     contact_monitor: ContactMonitor
+    movers: ModelInstanceIndex
+    """The boxes that move, in the plant."""
 
 
 def robot_alone(robot: RobotModel) -> MultibodyPlant:
@@ -167,6 +169,7 @@ def add_station(
         kinematics,
         wrench_sensor,
         contact_monitor,
+        movers,
     )
 
 

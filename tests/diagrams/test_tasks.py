@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from diagrams.outcome import base_height
-from diagrams.scenario import TASKS, ScenarioError, list_scenarios, load_scenario
+from diagrams.scenario import ScenarioError, list_scenarios, load_scenario
 from diagrams.simulation import simulate
+from diagrams.task_params import TASKS
 from diagrams.tasks import BUILDERS, build_task
 from diagrams.true_motion import true_motion
 
