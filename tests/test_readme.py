@@ -24,9 +24,9 @@ def test_there_is_a_diagram_to_copy() -> None:
 
 @pytest.mark.parametrize("snippet", [s for s in SNIPPETS if "DiagramBuilder" in s])
 def test_snippets_run(snippet: str, capsys: pytest.CaptureFixture[str]) -> None:
-    """And print what the comments below them say."""
+    """And print what the comments at their end say."""
     exec(compile(snippet, str(README), "exec"), {"__name__": "__main__"})
-    said = re.findall(r"^#> (.*)$", snippet, flags=re.MULTILINE)
+    said = re.findall(r"^# (.*)$", snippet, flags=re.MULTILINE)
     assert said
     assert capsys.readouterr().out.splitlines() == said
 
