@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -121,10 +122,23 @@ class _Body:
 def _tree(
     vertices: Vector, triangles: np.ndarray[Any, np.dtype[np.int64]]
 ) -> o3d.t.geometry.RaycastingScene:
+    """The tree of a mesh; equal meshes have one tree between them.
+
+    A process that holds about a thousand trees crashes in Embree, and Drake never lets
+    go of a System whose callbacks are its own methods, nor so of the robot's trees.
+    """
+    return _shared_tree(
+        np.ascontiguousarray(vertices, dtype=np.float32).tobytes(),
+        np.ascontiguousarray(triangles, dtype=np.uint32).tobytes(),
+    )
+
+
+@lru_cache(maxsize=128)
+def _shared_tree(vertices: bytes, triangles: bytes) -> o3d.t.geometry.RaycastingScene:
     tree = o3d.t.geometry.RaycastingScene(nthreads=1)
     tree.add_triangles(
-        o3d.core.Tensor.from_numpy(np.ascontiguousarray(vertices, dtype=np.float32)),
-        o3d.core.Tensor.from_numpy(np.ascontiguousarray(triangles, dtype=np.uint32)),
+        o3d.core.Tensor(np.frombuffer(vertices, dtype=np.float32).reshape(-1, 3)),
+        o3d.core.Tensor(np.frombuffer(triangles, dtype=np.uint32).reshape(-1, 3)),
     )
     return tree
 

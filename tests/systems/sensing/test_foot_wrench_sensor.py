@@ -31,7 +31,6 @@ from systems.sensing.foot_wrench_sensor import (
 )
 from systems.values import FEET
 
-
 STIFF = replace(JVRC1, gains=dict.fromkeys(JVRC1.gains, JointGains(4000.0, 200.0, 0.1)))
 """Stands by its servos alone."""
 

@@ -128,3 +128,17 @@ def test_body_behind_the_field_of_view_is_not_seen() -> None:
     assert np.all(np.isinf(behind))
     ahead = caster.cast(RigidTransform(), ANGLES, DIRECTIONS, [upright_pose(x=2.0)])
     assert np.min(ahead) == pytest.approx(1.85, abs=1e-5)
+
+
+def test_equal_meshes_share_their_tree() -> None:
+    """However many sensors there are: about a thousand trees crash a process."""
+    crate, other = _crate(0.5), _crate(0.6)
+    casters = [
+        RayCaster(crate, [BodyMesh(1, mesh.vertices.copy(), mesh.triangles.copy())])
+        for mesh in (crate, crate, other)
+    ]
+    scenes = {id(caster._scene) for caster in casters}
+    bodies = [caster._bodies[0].tree for caster in casters]
+    assert len(scenes) == 1
+    assert bodies[0] is bodies[1]
+    assert bodies[2] is not bodies[0]
