@@ -13,12 +13,14 @@ from diagrams.task_diagram import TaskDiagram
 from diagrams.walking import Stand, add_walking, initial_stand
 from diagrams.walking_signals import VALUE_PERIOD, record_walking
 from diagrams.wiring import add_system
+from models.collision_hulls import collision_hulls
 from systems.perception.plane_segmenter import PlaneSegmenter
 from systems.perception.staircase_map import StaircaseMap
 from systems.planning.executive import Executive
 from systems.planning.footstep_planner import FootstepPlanner
 from systems.planning.motion import plan_motion
 from systems.planning.motion_planner import MotionPlanner
+from systems.planning.motion_prediction import MotionPredictor
 from systems.ports import Vector
 from systems.tracking.whole_body_ik import WholeBodyIk
 
@@ -68,10 +70,23 @@ def build_stair_climbing(
             robot.sole,
         ),
     )
+    ik = WholeBodyIk(station.model, robot, params.ik)
     motion = add_system(
         builder,
         "motion_planner",
-        MotionPlanner(params.motion_planner, params.zmp_preview, robot),
+        MotionPlanner(
+            params.motion_planner,
+            params.zmp_preview,
+            robot,
+            "quasi_static" if scenario.task.mode == "quasi_static" else "dynamic",
+            MotionPredictor(
+                station.model,
+                robot,
+                ik,
+                params.stabilizer.distribution,
+                collision_hulls(robot),
+            ),
+        ),
     )
     for planner in (footsteps, motion):
         builder.Connect(
@@ -82,7 +97,6 @@ def build_stair_climbing(
         footsteps.GetInputPort("foot_poses"),
     )
 
-    ik = WholeBodyIk(station.model, robot, params.ik)
     stand = initial_stand(scenario, robot, ik, station)
     nowhere: Vector = np.zeros((0, 3))
     standing = plan_motion(

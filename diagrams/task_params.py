@@ -13,7 +13,7 @@ from models.validation import (
 
 TASKS = ("stair_climbing", "room_crossing", "obstacle_crossing")
 """What a robot may be asked to do."""
-MODES = ("dynamic",)
+MODES = ("dynamic", "quasi_static")
 """How it may do it."""
 
 
@@ -49,7 +49,8 @@ class TaskParams:
     """What: "stair_climbing", up the staircase to its top tread; "room_crossing", over
     the floor to `goal`; "obstacle_crossing", the same over what lies in the way."""
     mode: str = "dynamic"
-    """How: "dynamic", with a moving ZMP under a stabiliser."""
+    """How: "dynamic", with a moving ZMP under a stabiliser; "quasi_static", so slowly
+    that the ZMP stays near a CoM that is always over the stance; stair climbing only."""
     steps_between_scans: int = 2
     """How many treads are climbed before the robot stands and scans again."""
     goal: list[float] = field(default_factory=lambda: [2.5, 0.0, 0.0])

@@ -176,10 +176,8 @@ def add_walking(
     builder.Connect(player.GetOutputPort("zmp"), stabilizer.GetInputPort("zmp"))
     for port in ("foot_references", "contacts"):
         builder.Connect(landing.GetOutputPort(port), stabilizer.GetInputPort(port))
-    builder.Connect(
-        feedforward.GetOutputPort("momentum_rate"),
-        stabilizer.GetInputPort("momentum_rate"),
-    )
+    for port in ("momentum_rate", "leg_torque_map"):
+        builder.Connect(feedforward.GetOutputPort(port), stabilizer.GetInputPort(port))
     builder.Connect(
         stabilizer.GetOutputPort("foot_wrenches"),
         feedforward.GetInputPort("foot_wrenches"),

@@ -216,6 +216,8 @@ class MotionPlan(Value):
     """ZMP of the cart-table of constant height that moves like it, (n, 2), m."""
     waist: Vector
     """Pelvis (roll, pitch, yaw) in W, (n, 3), rad."""
+    reason: str = ""
+    """Why the footsteps cannot be carried out, in one line; the plan stands then."""
 
     @property
     def duration(self) -> float:

@@ -130,8 +130,8 @@ class Stabilizer(LeafSystem):
     - `momentum_rate`: rate of angular momentum about the CoM of the planned
       whole-body motion, in W, (3,), Nm.
     - `leg_torque_map`: torques of k leg joints without foot wrenches, (k,), Nm, then,
-      row by row, the matrix (k, 12) by which foot wrenches lessen them, (13 k,); read
-      only where `distribution.torque_cost` is not 0.
+      row by row, the matrix (k, 12) by which foot wrenches lessen them, (13 k,). Where
+      it is not connected no joint torque is kept small.
     - `foot_wrenches`: wrench of the ground wanted on left and right foot, each force
       then moment about F, in W, (12,), N and Nm.
     - `dcm`: measured horizontal DCM, (2,), m.
@@ -223,7 +223,8 @@ class Stabilizer(LeafSystem):
         set_vector(output, wrenches.ravel())
 
     def _leg_torques(self, context: Context) -> TorqueMap | None:
-        if self._params.distribution.torque_cost == 0.0:
+        costs = self._params.distribution.torque_cost > 0.0
+        if not (costs and self._torque_map.HasValue(context)):
             return None
         values = eval_vector(self._torque_map, context)
         joints = len(values) // 13

@@ -34,6 +34,9 @@ class DistributionParams:
     moment_cost: list[float] = field(default_factory=lambda: [0.02, 0.01, 0.05])
     """Costs of a foot's moment about its centre, x, y, z, 1/(Nm)^2: keeps the centre of
     pressure off the edges where both feet can share."""
+    torque_cost: float = 0.003
+    """Cost of a joint torque of the legs, 1/(Nm)^2: lets the legs push against each
+    other where that takes torque off the worst joint."""
 
     def validate(self) -> None:
         """Checks every field.
@@ -44,7 +47,7 @@ class DistributionParams:
         for name in ("friction", "force_weight", "moment_weight", "yaw_weight"):
             if not 0.0 < getattr(self, name) < np.inf:
                 raise ValueError(f"{name}: must be positive, got {getattr(self, name)}")
-        for name in ("edge_margin", "least_force", "tangential_cost"):
+        for name in ("edge_margin", "least_force", "tangential_cost", "torque_cost"):
             if not 0.0 <= getattr(self, name) < np.inf:
                 raise ValueError(
                     f"{name}: must not be negative, got {getattr(self, name)}"
@@ -53,6 +56,17 @@ class DistributionParams:
             raise ValueError(
                 f"moment_cost: must be three costs of 0 or more, got {self.moment_cost}"
             )
+
+
+@dataclass(frozen=True)
+class TorqueMap:
+    """Joint torques as they depend on the foot wrenches: tau = offset - matrix w."""
+
+    offset: Vector
+    """Torques without any wrench, (k,), Nm."""
+    matrix: Vector
+    """(k, 12): w is force, then moment about F, in W, of the left and the right foot,
+    N and Nm."""
 
 
 @lru_cache(maxsize=64)
@@ -74,6 +88,7 @@ def distribute_wrench(
     lengths: Vector,
     sole: Sole,
     params: DistributionParams,
+    torques: TorqueMap | None = None,
 ) -> tuple[Vector, bool]:
     """The foot wrenches that come nearest to a net wrench inside their cones.
 
@@ -90,6 +105,7 @@ def distribute_wrench(
         lengths: length of sole that carries, from the toe edge back, (2,), m.
         sole: of both feet.
         params: weights and limits.
+        torques: joint torques to keep small at `torque_cost`; None for no care.
 
     Returns:
         Wrenches of the ground on the feet, (2, 6): force, then moment about the origin
@@ -134,9 +150,22 @@ def distribute_wrench(
     weighted = weights[:, None] * grasp
     hessian = grasp.T @ weighted + np.diag(np.tile(cost, len(feet)))
     hessian += 1e-7 * np.eye(n)
+    gradient = -weighted.T @ net
+    if torques is not None and params.torque_cost > 0.0:
+        spread = np.zeros((12, n))
+        for k, i in enumerate(feet):
+            block = slice(6 * k, 6 * k + 6)
+            spread[6 * i : 6 * i + 3, block][:, :3] = rotations[k]
+            spread[6 * i + 3 : 6 * i + 6, block][:, :3] = (
+                _cross_matrix(arms[k]) @ rotations[k]
+            )
+            spread[6 * i + 3 : 6 * i + 6, block][:, 3:] = rotations[k]
+        M = torques.matrix @ spread
+        hessian += params.torque_cost * M.T @ M
+        gradient -= params.torque_cost * M.T @ torques.offset
     solution, _, status, _ = daqp.solve(
         hessian,
-        -weighted.T @ net,
+        gradient,
         cones,
         upper,
         lower,

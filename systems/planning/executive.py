@@ -85,6 +85,10 @@ def decide(
             status = TaskStatus(footsteps.status, "stand", footsteps.reason)
             return dataclasses.replace(stopped, status=status)
         plan = plan_motion().starting_at(time)
+        if plan.reason:
+            stopped = _turn_to(known, "stand", time)
+            status = TaskStatus("infeasible", "stand", plan.reason)
+            return dataclasses.replace(stopped, status=status)
         return _turn_to(dataclasses.replace(known, motion_plan=plan), "move", time)
     if before.activity == "move":
         plan = before.motion_plan

@@ -3,6 +3,8 @@
 import math
 from dataclasses import dataclass, field
 
+from systems.planning.choice_params import ChoiceParams
+from systems.planning.quasi_static_params import QuasiStaticParams
 from systems.planning.swing_trajectory import SwingParams
 
 
@@ -57,6 +59,10 @@ class MotionPlannerParams:
     """Length of the strip at the toes that carries once the heel is lifted, m."""
     max_toe_off: float = 0.7
     """Largest pitch of the rear foot in toe-off, rad."""
+    quasi_static: QuasiStaticParams = field(default_factory=QuasiStaticParams)
+    """What is different in quasi-static motion."""
+    choice: ChoiceParams = field(default_factory=ChoiceParams)
+    """Which `lean` and `max_toe_off` are tried where the motion is predicted."""
 
     def validate(self) -> None:
         """Checks every field.
@@ -96,3 +102,5 @@ class MotionPlannerParams:
                 f"toe_off_start: must lie in [0, 1), got {self.toe_off_start}"
             )
         self.swing.validate()
+        self.quasi_static.validate()
+        self.choice.validate()

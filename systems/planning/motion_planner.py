@@ -7,7 +7,9 @@ from pydrake.systems.framework import Context, LeafSystem
 from models.robot import RobotModel
 from systems.balance.zmp_preview import ZmpPreviewParams
 from systems.planning.motion import plan_motion
+from systems.planning.motion_choice import Mode, MotionTask, choose_motion
 from systems.planning.motion_params import MotionPlannerParams
+from systems.planning.motion_prediction import MotionPredictor
 from systems.ports import Vector, eval_abstract, eval_vector
 from systems.timing import timed
 from systems.values import FootstepPlan, PlaneSegment, Staircase
@@ -42,7 +44,7 @@ class MotionPlanner(LeafSystem):
       their rates, (24,), m, rad, m/s, rad/s.
     - `com_reference`: p_WCom, v_WCom and a_WCom that are tracked now, (9,).
     - `motion_plan`: abstract MotionPlan that starts at time 0; it stands where there
-      are no footsteps.
+      are no footsteps, and where they cannot be carried out, which its `reason` tells.
     """
 
     def __init__(
@@ -50,6 +52,8 @@ class MotionPlanner(LeafSystem):
         params: MotionPlannerParams,
         preview: ZmpPreviewParams,
         robot: RobotModel,
+        mode: Mode = "dynamic",
+        predictor: MotionPredictor | None = None,
     ) -> None:
         """Declares the ports.
 
@@ -57,6 +61,9 @@ class MotionPlanner(LeafSystem):
             params: timing and shape.
             preview: weights of the ZMP tracking.
             robot: its soles and legs.
+            mode: how the robot is to move.
+            predictor: of this robot, by which lean and toe-off are chosen; without one
+                the first that are tried are taken.
 
         Raises:
             ValueError: a parameter is out of range.
@@ -64,6 +71,8 @@ class MotionPlanner(LeafSystem):
         super().__init__()
         params.validate()
         self._params, self._preview, self._robot = params, preview, robot
+        self._mode: Mode = mode
+        self._predictor = predictor
         self._footsteps = self.DeclareAbstractInputPort(
             "footstep_plan", AbstractValue.Make(FootstepPlan())
         )
@@ -95,13 +104,18 @@ class MotionPlanner(LeafSystem):
     def _calc_plan(self, context: Context, output: AbstractValue) -> None:
         footsteps = eval_abstract(self._footsteps, context, FootstepPlan).footsteps
         staircase = eval_abstract(self._staircase, context, Staircase)
-        plan = plan_motion(
-            eval_vector(self._feet, context)[:12].reshape(2, 6),
-            eval_vector(self._com, context)[:3],
-            footsteps,
-            front_edges(staircase.treads),
+        task = MotionTask(
+            feet=eval_vector(self._feet, context)[:12].reshape(2, 6),
+            com=eval_vector(self._com, context)[:3],
+            footsteps=footsteps,
+            edges=front_edges(staircase.treads),
+        )
+        plan = choose_motion(
+            task,
+            self._mode,
             self._params,
             self._preview,
             self._robot,
+            self._predictor,
         )
         output.set_value(plan)

@@ -11,16 +11,23 @@ from dataclasses import dataclass
 
 import numpy as np
 from pydrake.multibody.plant import MultibodyPlant
-from pydrake.multibody.tree import JacobianWrtVariable
 from pydrake.systems.framework import Context
 
 from models.collision_hulls import CollisionHull
 from models.robot import RobotModel
-from systems.balance.wrench_distribution import DistributionParams, distribute_wrench
+from systems.balance.wrench_distribution import (
+    DistributionParams,
+    TorqueMap,
+    distribute_wrench,
+)
 from systems.balance.zmp_preview import GRAVITY
 from systems.planning.toe_off import heading
 from systems.ports import Vector
-from systems.tracking.whole_body_feedforward import momentum_rate, needed_forces
+from systems.tracking.whole_body_feedforward import (
+    foot_torque_matrix,
+    momentum_rate,
+    needed_forces,
+)
 from systems.tracking.whole_body_ik import IkTarget, WholeBodyIk, integrate
 from systems.values import FEET, MotionPlan
 
@@ -110,6 +117,8 @@ class MotionPredictor:
         ]
         self._joints = tuple(item.joint().name() for item in actuators)
         self._rows = np.array([item.joint().velocity_start() for item in actuators])
+        legs = {name for leg in robot.leg_joints.values() for name in leg}
+        self._legs = np.array([name in legs for name in self._joints])
         self._effort = np.array([item.effort_limit() for item in actuators])
         self._mass = plant.CalcTotalMass(plant.CreateDefaultContext())
         feet = set(robot.foot_bodies.values())
@@ -136,16 +145,17 @@ class MotionPredictor:
         """
         plant, context = self._plant, self._plant.CreateDefaultContext()
         stride = max(1, round(tick / plan.period))
-        rows = np.arange(0, len(plan.zmp), stride)
+        rows = [int(row) for row in range(0, len(plan.zmp), stride)]
+        time: Vector = np.array(rows) * plan.period
         step = stride * plan.period
         q = self._ik.posture.copy()
         q[4:7] = plan.com[0]
         at_rest = self._target(plan, 0, 0)
         for _ in range(SETTLING_TICKS):
             plant.SetPositions(context, q)
-            v, _ = self._ik.solve(context, at_rest)
-            q = integrate(plant, context, v, step)
-        v = np.zeros(plant.num_velocities())
+            settling, _ = self._ik.solve(context, at_rest)
+            q = integrate(plant, context, settling, step)
+        v: Vector = np.zeros(plant.num_velocities())
         torques = np.zeros((len(rows), len(self._joints)))
         foot_error, com_error = np.zeros(len(rows)), np.zeros(len(rows))
         gaps = np.full((len(rows), len(self._limbs)), np.inf)
@@ -160,7 +170,7 @@ class MotionPredictor:
             torques[k] = self._torques(context, plan, row, (v - before) / step)
             q = integrate(plant, context, v, step)
         return MotionPrediction(
-            time=rows * plan.period,
+            time=time,
             torques=torques,
             joints=self._joints,
             effort_limits=self._effort,
@@ -201,6 +211,8 @@ class MotionPredictor:
         plant = self._plant
         forces = needed_forces(plant, context, acceleration)
         lift: Vector = plan.com_acceleration[row] + np.array([0.0, 0.0, GRAVITY])
+        wrench_map = foot_torque_matrix(plant, context, self._feet, self._p_BF)
+        torques = TorqueMap(forces[self._rows], wrench_map[self._rows])
         wrenches, _ = distribute_wrench(
             np.concatenate([self._mass * lift, momentum_rate(plant, context, forces)]),
             plant.CalcCenterOfMassPositionInWorld(context),
@@ -209,20 +221,10 @@ class MotionPredictor:
             plan.contact_lengths[row],
             self._robot.sole,
             self._distribution,
+            TorqueMap(torques.offset[self._legs], torques.matrix[self._legs]),
         )
-        world = plant.world_frame()
-        for body, wrench in zip(self._feet, wrenches, strict=True):
-            J = plant.CalcJacobianSpatialVelocity(
-                context,
-                JacobianWrtVariable.kV,
-                body.body_frame(),
-                self._p_BF,
-                world,
-                world,
-            )
-            forces = forces - J.T @ np.concatenate([wrench[3:], wrench[:3]])
-        torques: Vector = forces[self._rows]
-        return torques
+        needed: Vector = torques.offset - torques.matrix @ wrenches.ravel()
+        return needed
 
     def _gaps(self, context: Context, edges: Vector, yaw: float) -> Vector:
         ahead = heading(yaw)

@@ -2,7 +2,7 @@
 
 import numpy as np
 from pydrake.multibody.plant import MultibodyPlant
-from pydrake.multibody.tree import JacobianWrtVariable, MultibodyForces
+from pydrake.multibody.tree import JacobianWrtVariable, MultibodyForces, RigidBody
 from pydrake.systems.framework import BasicVector, Context, LeafSystem
 
 from models.robot import RobotModel
@@ -37,6 +37,31 @@ def momentum_rate(plant: MultibodyPlant, context: Context, forces: Vector) -> Ve
     return rate
 
 
+def foot_torque_matrix(
+    plant: MultibodyPlant, context: Context, feet: list[RigidBody], p_BF: Vector
+) -> Vector:
+    """Generalised forces that foot wrenches exert: J_F^T, (nv, 12).
+
+    Args:
+        plant: the robot alone.
+        context: at the motion's positions.
+        feet: left, then right.
+        p_BF: origin of the sole frame in the foot's body, (3,), m.
+
+    Returns:
+        The matrix; its columns are force, then moment about F, in W, of the left foot
+        and then of the right one.
+    """
+    world = plant.world_frame()
+    columns = []
+    for body in feet:
+        J = plant.CalcJacobianSpatialVelocity(
+            context, JacobianWrtVariable.kV, body.body_frame(), p_BF, world, world
+        )
+        columns += [J[3:].T, J[:3].T]
+    return np.hstack(columns)
+
+
 class WholeBodyFeedforward(LeafSystem):
     """Torques of the reference motion under the wrenches that the stabiliser wants.
 
@@ -53,6 +78,7 @@ class WholeBodyFeedforward(LeafSystem):
         output_ports:
         - torque
         - momentum_rate
+        - leg_torque_map
 
     - `positions`: q of the reference motion, (nq,).
     - `velocities`: v, (nv,).
@@ -62,6 +88,8 @@ class WholeBodyFeedforward(LeafSystem):
     - `torque`: in the order of the actuators, within their effort limits, (na,), Nm.
     - `momentum_rate`: rate of angular momentum about the CoM of the reference motion,
       in W, (3,), Nm.
+    - `leg_torque_map`: torques of the leg joints without foot wrenches, (12,), Nm,
+      then, row by row, the matrix (12, 12) by which foot wrenches lessen them, (156,).
     """
 
     def __init__(
@@ -85,6 +113,14 @@ class WholeBodyFeedforward(LeafSystem):
         ]
         self._rows = np.array([item.joint().velocity_start() for item in actuators])
         self._effort = np.array([item.effort_limit() for item in actuators])
+        legs = {name for leg in robot.leg_joints.values() for name in leg}
+        self._leg_rows = np.array(
+            [
+                item.joint().velocity_start()
+                for item in actuators
+                if item.joint().name() in legs
+            ]
+        )
         nq, nv = plant.num_positions(), plant.num_velocities()
         self._q = self.DeclareVectorInputPort("positions", nq)
         self._v = self.DeclareVectorInputPort("velocities", nv)
@@ -105,6 +141,13 @@ class WholeBodyFeedforward(LeafSystem):
             prerequisites_of_calc=motion,
         )
 
+        self.DeclareVectorOutputPort(
+            "leg_torque_map",
+            13 * len(self._leg_rows),
+            timed(self, self._calc_leg_torque_map),
+            prerequisites_of_calc=motion,
+        )
+
     def _forces(self, context: Context) -> tuple[Context, Vector]:
         scratch = self._scratch(context)
         self._plant.SetPositions(scratch, eval_vector(self._q, context))
@@ -115,21 +158,17 @@ class WholeBodyFeedforward(LeafSystem):
         return scratch, needed_forces(self._plant, scratch, acceleration)
 
     def _calc_torque(self, context: Context, output: BasicVector) -> None:
-        wrenches = eval_vector(self._wrenches, context).reshape(2, 6)
         scratch, forces = self._forces(context)
-        world = self._plant.world_frame()
-        for body, wrench in zip(self._feet, wrenches, strict=True):
-            J = self._plant.CalcJacobianSpatialVelocity(
-                scratch,
-                JacobianWrtVariable.kV,
-                body.body_frame(),
-                self._p_BF,
-                world,
-                world,
-            )
-            forces = forces - J.T @ np.concatenate([wrench[3:], wrench[:3]])
+        matrix = foot_torque_matrix(self._plant, scratch, self._feet, self._p_BF)
+        forces = forces - matrix @ eval_vector(self._wrenches, context)
         set_vector(output, np.clip(forces[self._rows], -self._effort, self._effort))
 
     def _calc_momentum_rate(self, context: Context, output: BasicVector) -> None:
         scratch, forces = self._forces(context)
         set_vector(output, momentum_rate(self._plant, scratch, forces))
+
+    def _calc_leg_torque_map(self, context: Context, output: BasicVector) -> None:
+        scratch, forces = self._forces(context)
+        matrix = foot_torque_matrix(self._plant, scratch, self._feet, self._p_BF)
+        rows = self._leg_rows
+        set_vector(output, np.concatenate([forces[rows], matrix[rows].ravel()]))

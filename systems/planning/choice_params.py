@@ -1,0 +1,54 @@
+"""Parameters of the choice among postures by what they are predicted to ask."""
+
+import math
+from dataclasses import dataclass, field
+
+
+@dataclass(kw_only=True)
+class ChoiceParams:
+    """Which postures of climbing are tried, and what rules one out."""
+
+    leans: list[float] = field(default_factory=lambda: [0.3, 0.4, 0.5])
+    """Forward pitches of the pelvis that dynamic climbing tries, in order, rad."""
+    toe_offs: list[float] = field(default_factory=lambda: [0.7, 0.55])
+    """Largest pitches of the rear foot that are tried with each, rad."""
+    quasi_static_leans: list[float] = field(
+        default_factory=lambda: [0.45, 0.35, 0.55, 0.25]
+    )
+    """The same for quasi-static climbing, which rests where the knee bends most."""
+    lifted_heights: list[float] = field(default_factory=lambda: [0.76, 0.73, 0.70])
+    """Heights of the CoM above the upper tread at which the rear foot may leave the
+    ground in quasi-static climbing, m."""
+    torque_window: float = 0.3
+    """Predicted torques are averaged over this in dynamic climbing, s: a servo that is
+    at its limit for a moment lets the body sink a little."""
+    quasi_static_torque_window: float = 0.1
+    """The same in quasi-static climbing, s."""
+    torque_share: float = 1.0
+    """Share of the effort limits that may be asked."""
+    limb_clearance: float = 0.005
+    """Least distance of shins, knees and all above to a nosing, m."""
+    reach_tolerance: float = 0.015
+    """A sole that misses its pose by more is out of reach, m."""
+
+    def validate(self) -> None:
+        """Checks every field.
+
+        Raises:
+            ValueError: "field: reason, got x" for the first field that is wrong.
+        """
+        for name in ("leans", "toe_offs", "quasi_static_leans", "lifted_heights"):
+            values = getattr(self, name)
+            if not values or not all(0.0 <= value < math.inf for value in values):
+                raise ValueError(
+                    f"{name}: must hold at least one number, none negative, "
+                    f"got {values}"
+                )
+        for name in ("torque_share", "reach_tolerance"):
+            if not 0.0 < getattr(self, name) < math.inf:
+                raise ValueError(f"{name}: must be positive, got {getattr(self, name)}")
+        for name in ("torque_window", "quasi_static_torque_window", "limb_clearance"):
+            if not 0.0 <= getattr(self, name) < math.inf:
+                raise ValueError(
+                    f"{name}: must not be negative, got {getattr(self, name)}"
+                )

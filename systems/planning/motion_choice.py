@@ -1,0 +1,188 @@
+"""Motion plans whose climbing posture is chosen by what it will ask of the robot."""
+
+import dataclasses
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import product
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from models.robot import RobotModel
+from systems.balance.zmp_preview import ZmpPreviewParams
+from systems.planning.choice_params import ChoiceParams
+from systems.planning.motion import plan_motion
+from systems.planning.motion_params import MotionPlannerParams
+from systems.planning.motion_prediction import MotionPrediction, MotionPredictor
+from systems.planning.quasi_static import Climb, plan_segments, unstable_segment
+from systems.planning.quasi_static_motion import play_segments
+from systems.ports import Vector
+from systems.values import FEET, Footstep, MotionPlan
+
+Mode: TypeAlias = Literal["dynamic", "quasi_static"]
+
+
+@dataclass(frozen=True)
+class MotionTask:
+    """What a motion is to be planned for."""
+
+    feet: Vector
+    """Poses of both feet at the start, (2, 6), left first, level."""
+    com: Vector
+    """p_WCom at the start, (3,), at rest, m."""
+    footsteps: tuple[Footstep, ...]
+    """Where the feet go, in order."""
+    edges: Vector
+    """A point of the front edge of each tread, (m, 3), m."""
+
+
+def choose_motion(
+    task: MotionTask,
+    mode: Mode,
+    params: MotionPlannerParams,
+    preview: ZmpPreviewParams,
+    robot: RobotModel,
+    predictor: MotionPredictor | None,
+) -> MotionPlan:
+    """The first motion whose prediction keeps within reach, room and torque.
+
+    Args:
+        task: feet, CoM, footsteps and edges.
+        mode: how the robot is to move.
+        params: shape, and what is tried.
+        preview: weights of the ZMP tracking and the cart's height.
+        robot: its soles and legs.
+        predictor: of this robot; None to take the first motion as it is.
+
+    Returns:
+        The plan. Where none will do it stands, and its `reason` names the quantity
+        that the least bad one violates.
+    """
+    choice = params.choice
+    if not task.footsteps:
+        return _standing(task, params, preview, robot, "")
+    dynamic = mode == "dynamic"
+    window = choice.torque_window if dynamic else choice.quasi_static_torque_window
+    plans = _dynamic if dynamic else _quasi_static
+    climbs = _climbs(task, params)
+    yaw = float(task.footsteps[-1].X_WF.rotation().ToRollPitchYaw().yaw_angle())
+    refusals: list[tuple[float, str]] = []
+    for plan in plans(task, params, preview, robot):
+        if plan.reason:
+            refusals.append((np.inf, plan.reason))
+        elif predictor is None or not climbs:
+            return plan
+        else:
+            prediction = predictor.predict(plan, task.edges, yaw)
+            excess, reason = violation(prediction, window, choice)
+            if not reason:
+                return plan
+            refusals.append((excess, reason))
+    reason = min(refusals, key=lambda refusal: refusal[0])[1]
+    return _standing(task, params, preview, robot, reason)
+
+
+def violation(
+    prediction: MotionPrediction, window: float, choice: ChoiceParams
+) -> tuple[float, str]:
+    """What a motion violates worst, and by how much for its allowance.
+
+    Args:
+        prediction: of the motion.
+        window: over which torques are averaged, s.
+        choice: what is allowed.
+
+    Returns:
+        The excess as a multiple of what is allowed, and the quantity in one line; 0
+        and nothing where all is allowed.
+    """
+    found: list[tuple[float, str]] = []
+    miss = float(prediction.foot_error.max())
+    if miss > choice.reach_tolerance:
+        when = prediction.time[int(prediction.foot_error.argmax())]
+        found.append(
+            (
+                miss / choice.reach_tolerance,
+                f"reach: a sole would miss its place by {miss:.3f} m at {when:.1f} s, "
+                f"more than {choice.reach_tolerance:.3f} m",
+            )
+        )
+    gap, limb, when = prediction.worst_gap()
+    if gap < choice.limb_clearance:
+        found.append(
+            (
+                1.0 + (choice.limb_clearance - gap) / 0.01,
+                f"clearance: {limb} would come within {gap:.3f} m of a nosing at "
+                f"{when:.1f} s, less than {choice.limb_clearance:.3f} m",
+            )
+        )
+    share, joint, when = prediction.worst_torque(window)
+    if share > choice.torque_share:
+        limit = dict(zip(prediction.joints, prediction.effort_limits, strict=True))[
+            joint
+        ]
+        found.append(
+            (
+                share / choice.torque_share,
+                f"torque: {joint} would need {share * limit:.0f} Nm for {window:g} s "
+                f"at {when:.1f} s, more than {choice.torque_share * limit:.0f} Nm",
+            )
+        )
+    return max(found, default=(0.0, ""))
+
+
+def _dynamic(
+    task: MotionTask,
+    params: MotionPlannerParams,
+    preview: ZmpPreviewParams,
+    robot: RobotModel,
+) -> Iterator[MotionPlan]:
+    for lean, toe_off in product(params.choice.leans, params.choice.toe_offs):
+        tried = dataclasses.replace(params, lean=lean, max_toe_off=toe_off)
+        yield plan_motion(
+            task.feet, task.com, task.footsteps, task.edges, tried, preview, robot
+        )
+
+
+def _quasi_static(
+    task: MotionTask,
+    params: MotionPlannerParams,
+    preview: ZmpPreviewParams,
+    robot: RobotModel,
+) -> Iterator[MotionPlan]:
+    choice = params.choice
+    for toe_off, height, lean in product(
+        choice.toe_offs, choice.lifted_heights, choice.quasi_static_leans
+    ):
+        climb = Climb(lean, toe_off, height)
+        segments = plan_segments(
+            task.feet, task.com, task.footsteps, climb, params, robot
+        )
+        reason = unstable_segment(segments, params, robot)
+        if reason:
+            yield _standing(task, params, preview, robot, reason)
+            continue
+        yield play_segments(
+            segments, task.footsteps, task.edges, params, preview, robot
+        )
+
+
+def _standing(
+    task: MotionTask,
+    params: MotionPlannerParams,
+    preview: ZmpPreviewParams,
+    robot: RobotModel,
+    reason: str,
+) -> MotionPlan:
+    plan = plan_motion(
+        task.feet, task.com, (), np.zeros((0, 3)), params, preview, robot
+    )
+    return dataclasses.replace(plan, reason=reason)
+
+
+def _climbs(task: MotionTask, params: MotionPlannerParams) -> bool:
+    heights = dict(zip(FEET, task.feet[:, 2], strict=True))
+    return any(
+        abs(step.X_WF.translation()[2] - heights[step.foot]) > params.climb_threshold
+        for step in task.footsteps
+    )
