@@ -1,6 +1,6 @@
 """What the judge is shown of a run: the truth of the plant, and what was logged."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
@@ -10,9 +10,13 @@ from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import ModelInstanceIndex
 from pydrake.systems.framework import Context
 
+from diagrams.box_clearance import box_clearances
+from diagrams.crossing_judge import BOX_PREFIX, CrossingEvidence
 from diagrams.task_diagram import TaskDiagram
 from diagrams.true_motion import TrueMotion, true_motion
 from models.staircase import Tread
+from systems.obstacle_values import ObstacleMap
+from systems.planning.crossing_motion import CrossingMotion
 from systems.ports import Vector
 from systems.room_values import Environment
 from systems.values import PlaneSegmentation, Staircase, TaskStatus, Touch, Touches
@@ -68,6 +72,8 @@ class Evidence:
     """What was made of it, one entry a change."""
     environments: tuple[tuple[float, Environment], ...] = ()
     """When, s, the room was looked at, and what was seen, one entry a look."""
+    crossing: CrossingEvidence | None = None
+    """What there is of an obstacle crossing; None where that was not the task."""
 
 
 def gather(
@@ -124,6 +130,25 @@ def gather(
             for entry in entries
             if isinstance(entry.value, Environment) and entry.value != Environment()
         ),
+        crossing=_crossing(task, time, state, [entry.value for entry in entries]),
+    )
+
+
+def _crossing(
+    task: TaskDiagram, time: Vector, state: Vector, values: Sequence[object]
+) -> CrossingEvidence | None:
+    """What there is of an obstacle crossing, known by the maps that it logs."""
+    maps = [value for value in values if isinstance(value, ObstacleMap)]
+    if not maps:
+        return None
+    boxes = tuple(
+        solid for solid in task.scene.solids() if solid.name.startswith(BOX_PREFIX)
+    )
+    return CrossingEvidence(
+        boxes,
+        box_clearances(task.plant, task.robot_instance, task.robot, time, state, boxes),
+        tuple(seen for seen in maps if seen.status != "none"),
+        tuple(value.report for value in values if isinstance(value, CrossingMotion)),
     )
 
 

@@ -64,7 +64,8 @@ def build_obstacle_crossing(
     finder = add_system(
         builder, "obstacle_finder", ObstacleFinder(params.obstacle_finder)
     )
-    builder.Connect(assembler.GetOutputPort("cloud"), finder.GetInputPort("cloud"))
+    for port in ("cloud", "sweep"):
+        builder.Connect(assembler.GetOutputPort(port), finder.GetInputPort(port))
     builder.Connect(lidar.GetOutputPort("viewpoint"), finder.GetInputPort("viewpoint"))
 
     ik = WholeBodyIk(station.model, robot, params.ik)
@@ -99,7 +100,7 @@ def build_obstacle_crossing(
     builder.Connect(goal_source.get_output_port(), planner.GetInputPort("goal"))
 
     executive = add_system(builder, "executive", Executive(params.executive, standing))
-    builder.Connect(assembler.GetOutputPort("sweep"), executive.GetInputPort("sweep"))
+    builder.Connect(finder.GetOutputPort("sweep"), executive.GetInputPort("sweep"))
     builder.Connect(executive.GetOutputPort("scan"), lidar.GetInputPort("enable"))
     for port in ("footstep_plan", "motion_plan"):
         builder.Connect(planner.GetOutputPort(port), executive.GetInputPort(port))

@@ -7,11 +7,16 @@ controller believes it takes only that it stopped, and why.
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 import pandas as pd
 
+from diagrams.crossing_judge import (
+    measure_crossing,
+    obstacles_crossed,
+    planning_summary,
+)
 from diagrams.evidence import Evidence
 from diagrams.measures import (
     contact_intervals,
@@ -24,7 +29,7 @@ from diagrams.measures import (
 )
 from diagrams.true_motion import TrueMotion
 from systems.ports import Vector
-from systems.values import FEET, Foot
+from systems.values import FEET, Foot, Json
 
 Outcome: TypeAlias = Literal["completed", "fell", "infeasible", "timed_out"]
 FALLEN_HEIGHT = 0.6
@@ -54,6 +59,9 @@ class Judgement:
     max_speed_fraction: float | None = None
     max_speed_joint: str | None = None
     min_zmp_margin_m: float | None = None
+    min_static_margin_m: float | None = None
+    """Least signed distance of the true CoM to the edge of the static-stability polygon
+    of the soles that stand; below zero while a dynamic motion passes over an edge."""
     max_dcm_error_m: float | None = None
     com_rms_error_m: float | None = None
     max_foot_slip_m: float | None = None
@@ -66,6 +74,16 @@ class Judgement:
     climb_time_s: float | None = None
     """From the first motion until the last foot came to stand on the top tread,
     without the time spent scanning and planning."""
+    obstacles_crossed: int | None = None
+    crossing_time_s: float | None = None
+    """Phases 1 to 3 over an obstacle, the longest: from the first foot's lift-off to
+    the second's touch-down."""
+    crossing_impact_body_weights: float | None = None
+    """Largest force on a foot as it lands beyond an obstacle."""
+    min_clearance_body: str | None = None
+    """Which part of the robot came nearest to an obstacle."""
+    crossing: Mapping[str, Json] | None = None
+    """What the planner says of its crossings."""
 
 
 def has_fallen(base_height: float, initial_height: float, torso_up: float) -> bool:
@@ -112,11 +130,12 @@ def judge(evidence: Evidence) -> Judgement:
         max_speed_fraction=speed[0],
         max_speed_joint=speed[1],
         min_zmp_margin_m=_min_zmp_margin(evidence, wrenches),
+        min_static_margin_m=_min_static_margin(evidence),
         max_dcm_error_m=_dcm_error(evidence),
         com_rms_error_m=_com_error(evidence),
         max_foot_slip_m=slip,
         max_impact_body_weights=_impact(evidence, wrenches),
-        min_clearance_m=_clearance(evidence, wrenches),
+        **_crossing_figures(evidence, wrenches),
         goal_error_m=None if evidence.goal is None else _goal_error(evidence)[0],
         goal_turn_rad=None if evidence.goal is None else _goal_error(evidence)[1],
         climb_time_s=_climb_time(evidence, contacts),
@@ -328,6 +347,15 @@ def _min_zmp_margin(
     return float(finite.min()) if len(finite) else None
 
 
+def _min_static_margin(evidence: Evidence) -> float | None:
+    frame = evidence.frames.get("static_stability.margin")
+    if frame is None:
+        return None
+    margins = frame.to_numpy(dtype=np.float64)[:, 1]
+    finite = margins[np.isfinite(margins)]
+    return float(finite.min()) if len(finite) else None
+
+
 def _impact(evidence: Evidence, wrenches: dict[Foot, Vector] | None) -> float | None:
     """The largest force on one foot, in body weights."""
     if wrenches is None:
@@ -348,6 +376,40 @@ def _clearance(evidence: Evidence, wrenches: dict[Foot, Vector] | None) -> float
         for foot, wrench in (wrenches or {}).items()
     ]
     return min((value for value in clearances if value is not None), default=None)
+
+
+def _crossing_figures(
+    evidence: Evidence, wrenches: dict[Foot, Vector] | None
+) -> dict[str, Any]:
+    """The fields of a judgement that an obstacle crossing adds."""
+    crossing = evidence.crossing
+    if crossing is None:
+        return {"min_clearance_m": _clearance(evidence, wrenches)}
+    forces = {
+        foot: np.linalg.norm(wrench[:, :3], axis=1)
+        for foot, wrench in (wrenches or {}).items()
+    }
+    measured = [
+        found
+        for box in crossing.boxes
+        if forces
+        and (
+            found := measure_crossing(
+                evidence.motion, forces, evidence.limits.weight, box
+            )
+        )
+    ]
+    nearest = min(crossing.clearances, key=lambda item: item.distance, default=None)
+    return {
+        "min_clearance_m": nearest.distance if nearest else None,
+        "min_clearance_body": nearest.body if nearest else None,
+        "obstacles_crossed": obstacles_crossed(evidence.motion, crossing.boxes),
+        "crossing_time_s": max((item.time for item in measured), default=None),
+        "crossing_impact_body_weights": max(
+            (item.impact for item in measured), default=None
+        ),
+        "crossing": planning_summary(crossing.reports),
+    }
 
 
 def _reference(evidence: Evidence, port: str) -> pd.DataFrame | None:

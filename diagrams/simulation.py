@@ -12,6 +12,7 @@ from typing import TypeAlias
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import Context
 
+from diagrams.crossing_judge import eyes_summary
 from diagrams.evidence import Evidence, Stop, gather
 from diagrams.outcome import has_fallen, judge
 from diagrams.room_summary import room_perception, stage_ms
@@ -191,7 +192,9 @@ def summarize(task: TaskDiagram, scenario: Scenario, simulated: Simulated) -> Su
 
 
 def _perception(task: TaskDiagram, evidence: Evidence) -> Mapping[str, Json] | None:
-    """How the stairs or the room were seen; None where neither was."""
+    """How the stairs, the room or the obstacles were seen; None where none was."""
+    if evidence.crossing is not None:
+        return eyes_summary(evidence.crossing)
     ms_per_frame = stage_ms(task.diagram, len(evidence.environments))
     if ms_per_frame:
         return room_perception(evidence.environments, task.scene, ms_per_frame)

@@ -37,7 +37,6 @@ class Summary(Judgement):
     """Wall time of the simulation alone, without building and writing."""
     real_time_factor: float | None
     """Simulated time over wall time."""
-    obstacles_crossed: int | None = None
     perception: Mapping[str, Json] | None = None
     """Frames, ms a frame by stage, errors against the true scene."""
     timing_us: Mapping[str, Mapping[str, float]] = field(default_factory=dict)

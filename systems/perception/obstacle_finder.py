@@ -1,142 +1,38 @@
-"""Eyes: width, height, position and yaw of what stands on the floor, from a scan."""
+"""Eyes: what stands in the way, from the robot's own scan."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from pydrake.common.value import AbstractValue
 from pydrake.perception import PointCloud
-from pydrake.systems.framework import Context, LeafSystem
+from pydrake.systems.framework import (
+    BasicVector,
+    Context,
+    EventStatus,
+    LeafSystem,
+    State,
+)
 
-from models.validation import require_at_least, require_positive
-from systems.obstacle_values import Obstacle, ObstacleMap
-from systems.perception.boxes import even_rectangle, top_height
-from systems.perception.clusters import cluster_points
-from systems.ports import Vector, eval_abstract, eval_vector
+from systems.obstacle_values import ObstacleMap
+from systems.perception.obstacles import ObstacleFinderParams, find_obstacles
+from systems.ports import Vector, eval_abstract, eval_vector, set_vector
 from systems.timing import timed
+from systems.values import Value
 
 
-@dataclass(kw_only=True)
-class ObstacleFinderParams:
-    """What counts as an obstacle, and where it is looked for."""
+@dataclass(frozen=True, eq=False)
+class _Seen(Value):
+    """What the last finished sweep showed."""
 
-    reach: float = 3.0
-    """How far from the sensor obstacles are looked for, m, horizontally; farther ones
-    are seen too thinly."""
-    floor_window: float = 0.02
-    """Half the thickness of the level of points that is the floor, m."""
-    min_height: float = 0.02
-    """What is lower above the floor can be walked over, m."""
-    max_height: float = 1.2
-    """What is higher above the floor is none, m."""
-    radius: float = 0.06
-    """Gap between points that separates two obstacles, m."""
-    cell: float = 0.02
-    """Columns in which points are gathered before, m."""
-    min_points: int = 40
-    """Clusters with fewer points are noise."""
-    top_window: float = 0.012
-    """Half the thickness of the level of points that is a top, m: two deviations."""
-    tail: float = 0.02
-    """Share of the top's points at either end that does not bound it."""
-
-    def validate(self) -> None:
-        """Checks every field.
-
-        Raises:
-            ValueError: "field: reason, got x" for the first field that is wrong.
-        """
-        for name in (
-            "reach",
-            "floor_window",
-            "min_height",
-            "max_height",
-            "radius",
-            "cell",
-            "top_window",
-        ):
-            require_positive(name, getattr(self, name), "m")
-        require_at_least("min_points", self.min_points, 3)
-        if not 0.0 <= self.tail < 0.25:
-            raise ValueError(f"tail: must lie in [0, 0.25), got {self.tail:g}")
-
-
-def find_obstacles(
-    points: Vector, viewpoint: Vector, params: ObstacleFinderParams
-) -> ObstacleMap:
-    """The obstacles in a cloud.
-
-    The floor is the densest level below the sensor. What stands out of it is grouped;
-    each group's top is its highest dense level, and the least rectangle that the top's
-    points fill is its footprint. Its thin side is what is stepped across.
-
-    Args:
-        points: in W, (n, 3), m.
-        viewpoint: where they were seen from, (3,), m.
-        params: see there.
-    """
-    points = points[np.isfinite(points).all(axis=1)]
-    near = np.hypot(*(points[:, :2] - viewpoint[:2]).T) < params.reach
-    points = points[near & (points[:, 2] < viewpoint[2] - 0.3)]
-    if len(points) < params.min_points:
-        return ObstacleMap(status="no floor")
-    floor = floor_height(points[:, 2], params.floor_window)
-    height = points[:, 2] - floor
-    above = points[(height > params.min_height) & (height < params.max_height)]
-    labels = cluster_points(above, params.radius, params.cell)
-    found = []
-    for label in range(labels.max(initial=-1) + 1):
-        cluster = above[labels == label]
-        if len(cluster) >= params.min_points:
-            found.append(fit_obstacle(cluster, floor, viewpoint, params))
-    found.sort(key=lambda item: float(np.linalg.norm(item.center - viewpoint[:2])))
-    return ObstacleMap(tuple(found), floor, "ok")
-
-
-def floor_height(z: Vector, window: float) -> float:
-    """The densest level of heights, (n,), m: the mean of its points."""
-    z = np.sort(z)
-    first = np.searchsorted(z, z - window, side="left")
-    last = np.searchsorted(z, z + window, side="right")
-    level = float(z[int(np.argmax(last - first))])
-    return float(z[np.abs(z - level) <= window].mean())
-
-
-def fit_obstacle(
-    points: Vector, floor: float, viewpoint: Vector, params: ObstacleFinderParams
-) -> Obstacle:
-    """The rectangle and the height of one group of points.
-
-    Args:
-        points: at least three, in W, (n, 3), m.
-        floor: height of what it stands on, m.
-        viewpoint: where it was seen from, (3,), m.
-        params: see `ObstacleFinderParams`.
-    """
-    z_top = top_height(points[:, 2], params.top_window, 0.35)
-    top = points[points[:, 2] > z_top - 0.5 * params.top_window]
-    plan = top[:, :2]
-    if len(top) >= params.min_points // 2:
-        # The rays of the top's points meet it at its height: that takes the noise
-        # along the ray out of their place.
-        ray = top - viewpoint
-        scale = (z_top - viewpoint[2]) / np.minimum(ray[:, 2], -1e-3)
-        plan = viewpoint[:2] + scale[:, None] * ray[:, :2]
-    middle, yaw, extent = even_rectangle(plan, params.tail)
-    if extent[0] > extent[1]:
-        yaw, extent = yaw + np.pi / 2.0, extent[::-1]
-    return Obstacle(
-        center=middle,
-        yaw=yaw,
-        width=float(extent[0]),
-        height=float(z_top - floor),
-        length=float(extent[1]),
-        support_count=len(points),
-    )
+    map: ObstacleMap = field(default_factory=ObstacleMap)
+    sweeps: int = 0
+    """How many sweeps were finished then."""
 
 
 class ObstacleFinder(LeafSystem):
-    """Finds what stands on the floor in a cloud.
+    """Finds what stands on the floor, once a sweep.
 
     .. pydrake_system::
 
@@ -144,16 +40,20 @@ class ObstacleFinder(LeafSystem):
         input_ports:
         - cloud
         - viewpoint
+        - sweep
         output_ports:
         - obstacle_map
+        - sweep
 
-    - `cloud`: pydrake PointCloud in W, m; without points nothing has been seen yet.
-    - `viewpoint`: p_WSensor, (3,), m, where the cloud was seen from.
+    - `cloud`: pydrake PointCloud of the last finished sweep in W, m.
+    - `viewpoint`: p_WSensor, (3,), m, where it was seen from.
+    - `sweep` (input): how many sweeps are finished, (1,).
     - `obstacle_map`: abstract ObstacleMap in W.
+    - `sweep` (output): how many sweeps were finished when it was made, (1,).
     """
 
     def __init__(self, params: ObstacleFinderParams | None = None) -> None:
-        """Declares the ports.
+        """Declares ports, state and the update.
 
         Args:
             params: see there; None for the defaults.
@@ -168,19 +68,43 @@ class ObstacleFinder(LeafSystem):
             "cloud", AbstractValue.Make(PointCloud(0))
         )
         self._viewpoint = self.DeclareVectorInputPort("viewpoint", 3)
-        calc: Callable[..., None] = timed(self, self._calc)
+        self._sweep = self.DeclareVectorInputPort("sweep", 1)
+        self._state = self.DeclareAbstractState(AbstractValue.Make(_Seen()))
+        ticket = {self.abstract_state_ticket(self._state)}
+        calc_map: Callable[..., None] = timed(self, self._calc_map)
         self.DeclareAbstractOutputPort(
             "obstacle_map",
             lambda: AbstractValue.Make(ObstacleMap()),
-            calc,
-            prerequisites_of_calc={self._cloud.ticket(), self._viewpoint.ticket()},
+            calc_map,
+            prerequisites_of_calc=ticket,
+        )
+        self.DeclareVectorOutputPort(
+            "sweep", 1, timed(self, self._calc_sweep), prerequisites_of_calc=ticket
+        )
+        self.DeclarePeriodicUnrestrictedUpdateEvent(
+            self._params.period, 0.0, timed(self, self._look)
         )
 
-    def _calc(self, context: Context, output: AbstractValue) -> None:
+    def _look(self, context: Context, state: State) -> EventStatus:
+        sweeps = int(eval_vector(self._sweep, context)[0])
+        if not sweeps > self._get(context).sweeps:
+            return EventStatus.DidNothing()
         cloud = eval_abstract(self._cloud, context, PointCloud)
         points: Vector = cloud.xyzs().T.astype(np.float64)
-        if not len(points):
-            output.set_value(ObstacleMap())
-            return
         viewpoint = eval_vector(self._viewpoint, context)
-        output.set_value(find_obstacles(points, viewpoint, self._params))
+        seen = _Seen(find_obstacles(points, viewpoint, self._params), sweeps)
+        state.get_mutable_abstract_state(int(self._state)).set_value(seen)
+        return EventStatus.Succeeded()
+
+    def _get(self, context: Context) -> _Seen:
+        held: Any = context.get_abstract_state(int(self._state))
+        seen = held.get_value()
+        assert isinstance(seen, _Seen)
+        return seen
+
+    def _calc_map(self, context: Context, output: AbstractValue) -> None:
+        output.set_value(self._get(context).map)
+
+    def _calc_sweep(self, context: Context, output: BasicVector) -> None:
+        sweeps: Vector = np.array([self._get(context).sweeps], dtype=np.float64)
+        set_vector(output, sweeps)

@@ -4,8 +4,8 @@ FTG, CWTG1, IK, UBMG, CWTG2 and FTA in the paper's order (Stasse et al. 2009, Se
 III); FU has been asked before, when the footsteps were placed.
 """
 
+import dataclasses
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from pydrake.systems.framework import Context
@@ -31,7 +31,14 @@ from systems.planning.crossing_timing import (
     time_steps,
     zmp_reference,
 )
-from systems.planning.feet_adaptor import Repairs, adapt, leg_gaps
+from systems.planning.feet_adaptor import (
+    LegPoses,
+    Repairs,
+    adapt,
+    ankle_displacement,
+    leg_gaps,
+    penetration_path,
+)
 from systems.planning.foot_trajectory_generator import Crossing, foot_trajectory
 from systems.planning.leg_clearance import Section
 from systems.planning.motion_params import MotionPlannerParams
@@ -42,11 +49,11 @@ from systems.planning.whole_body_plan import (
     body_zmp,
 )
 from systems.ports import Vector
-from systems.values import FEET, Footstep, MotionPlan
+from systems.values import FEET, Footstep, MotionPlan, Value
 
 
-@dataclass(frozen=True)
-class CrossingReport:
+@dataclass(frozen=True, eq=False)
+class CrossingReport(Value):
     """How well a planned motion keeps what it is to keep."""
 
     gap: float
@@ -60,16 +67,21 @@ class CrossingReport:
     zmp_error_after: tuple[float, float]
     """The same after CWTG2."""
     repairs: Repairs
+    obstacles: tuple[Obstacle, ...] = ()
+    """What is crossed."""
+    keys: tuple[KeyConfiguration, ...] = ()
+    """The key configuration of each."""
+    phases: tuple[tuple[float, float], ...] = ()
+    """When phase 1 begins and phase 3 ends over each, s after the motion's start."""
+    planning_ms: tuple[tuple[str, float], ...] = ()
+    """Wall time of FU and of FTG to FTA, ms."""
 
 
-class _Rows(NamedTuple):
-    """What the whole-body motion is computed from, every `sampling`."""
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CrossingMotion(MotionPlan):
+    """A motion over obstacles and how well it does."""
 
-    time: Vector
-    feet: Vector
-    waist_height: Vector
-    waist_rpy: Vector
-    zmp: Vector
+    report: CrossingReport
 
 
 def plan_crossing(
@@ -83,7 +95,7 @@ def plan_crossing(
     preview: ZmpPreviewParams,
     body: WholeBody,
     context: Context,
-) -> tuple[MotionPlan, CrossingReport]:
+) -> CrossingMotion:
     """Plans the motion from standing to standing, beginning at time 0.
 
     Args:
@@ -100,7 +112,7 @@ def plan_crossing(
         context: scratch context of its plant.
 
     Returns:
-        The plan and how well it does.
+        The motion and how well it does.
     """
     steps, end = time_steps(feet, footsteps, walking, crossing)
     n = round(end / walking.period) + 1
@@ -119,76 +131,100 @@ def plan_crossing(
     def waist_of(repairs: Repairs, at: Vector) -> Vector:
         return _waist_height(at, steps, keys, start_waist[2], ground, repairs, end)
 
-    offset = np.tile(start_waist[:2] - com[:2], (len(rows), 1))
-    before = after = (0.0, 0.0)
+    guess = np.tile(start_waist[:2] - com[:2], (len(rows), 1))
 
-    def motion_of(repairs: Repairs) -> tuple[BodyMotion, ComMotion, Vector]:
-        """CWTG1, IK, UBMG and CWTG2 for one set of repairs."""
-        nonlocal before, after
+    def single_mass(repairs: Repairs) -> tuple[ComMotion, Vector, Vector]:
+        """CWTG1: the CoM of the single mass, the waist's height, the height factor."""
         waist_height = waist_of(repairs, time)
-        soles = feet_of(repairs, time[rows])
         com_height = waist_height + (com[2] - start_waist[2])
         factor = _factor(com_height, zmp[:, 2], walking.period)
-        single = generate_varying_height(
+        moved = generate_varying_height(
             zmp[:, :2], factor, preview, rest_state(com[:2])
         )
-        moved = single
-        guess = offset
-        errors = []
-        for stage in range(crossing.filter_stages + 1):
-            motion = body_motion(
-                body,
-                context,
-                moved.com[rows],
-                waist_height[rows],
-                rpy[rows],
-                soles,
-                posture,
-                guess,
-                rounds=1,
-            )
-            guess = motion.waist[:, :2] - motion.com[:, :2]
-            p_MB = body_zmp(
-                body, context, motion.q, zmp[rows, 2], stride * walking.period
-            )
-            error = zmp[rows, :2] - p_MB
-            errors.append(_worst(error, time[rows], steps))
-            if stage < crossing.filter_stages:
-                spread = CubicSpline(time[rows], p_MB)(time)
-                spread[rows[-1] :] = p_MB[-1]
-                moved = filter_motion_varying_height(
-                    moved, zmp[:, :2], spread, factor, preview
-                )
-        before, after = errors[0], errors[-1]
-        return motion, moved, soles
+        return moved, waist_height, factor
+
+    def legs_of(
+        repairs: Repairs, moved: ComMotion, waist_height: Vector, rounds: int
+    ) -> tuple[BodyMotion, Vector]:
+        """IK and UBMG."""
+        nonlocal guess
+        soles = feet_of(repairs, time[rows])
+        motion = body_motion(
+            body,
+            context,
+            moved.com[rows],
+            waist_height[rows],
+            rpy[rows],
+            soles,
+            posture,
+            guess,
+            rounds,
+        )
+        guess = motion.waist[:, :2] - motion.com[:, :2]
+        return motion, soles
+
+    def poses_of(repairs: Repairs) -> LegPoses:
+        moved, waist_height, _ = single_mass(repairs)
+        motion, soles = legs_of(repairs, moved, waist_height, 0)
+        return LegPoses(motion.angles, soles)
 
     sections = tuple(section_of(obstacle) for obstacle in obstacles)
-
-    def gaps_of(motion: BodyMotion, soles: Vector, inflated: bool) -> Vector:
-        margins = crossing.feasibility
-        seen = tuple(
-            Section(s.width + 2.0 * margins.s_w, s.height + margins.s_h)
-            if inflated
-            else s
-            for s in sections
-        )
-        shifts = [margins.s_w if inflated else 0.0] * len(sections)
-        return leg_gaps(body.leg, motion.angles, soles, obstacles, seen, shifts, ground)
-
-    repairs, (motion, moved, soles) = adapt(
-        motion_of,
-        lambda motion, soles: gaps_of(motion, soles, True),
-        time[rows],
-        steps,
-        crossing.max_repairs,
+    margins = crossing.feasibility
+    inflated = tuple(
+        Section(s.width + 2.0 * margins.s_w, s.height + margins.s_h) for s in sections
     )
-    true_gap = gaps_of(motion, soles, False)
+
+    def gaps_of(poses: LegPoses) -> Vector:
+        shifts = [margins.s_w] * len(inflated)
+        return leg_gaps(
+            body.leg, poses.angles, poses.soles, obstacles, inflated, shifts, ground
+        )
+
+    def yielding(poses: LegPoses, repairs: Repairs) -> Repairs | None:
+        gaps = gaps_of(poses)
+        path = _yielding_path(poses, gaps, time[rows], steps, body, repairs)
+        return None if path is None else dataclasses.replace(repairs, path=path)
+
+    straightest = body.leg.lower[:, 3] + crossing.knee_margin
+    repairs = adapt(poses_of, gaps_of, yielding, straightest, crossing.max_repairs)
+
+    moved, waist_height, factor = single_mass(repairs)
+    errors = []
+    for stage in range(crossing.filter_stages + 1):
+        motion, soles = legs_of(repairs, moved, waist_height, 1)
+        p_MB = body_zmp(body, context, motion.q, zmp[rows, 2], stride * walking.period)
+        errors.append(_worst(zmp[rows, :2] - p_MB, time[rows], steps))
+        if stage < crossing.filter_stages:
+            spread = CubicSpline(time[rows], p_MB)(time)
+            spread[rows[-1] :] = p_MB[-1]
+            moved = filter_motion_varying_height(
+                moved, zmp[:, :2], spread, factor, preview
+            )
+    before, after = errors[0], errors[-1]
+    true_gap = leg_gaps(
+        body.leg,
+        motion.angles,
+        soles,
+        obstacles,
+        sections,
+        [0.0] * len(sections),
+        ground,
+    )
     report = CrossingReport(
         gap=float(true_gap.min()) if true_gap.size else float("inf"),
         short=float(motion.short.max()),
         zmp_error_before=before,
         zmp_error_after=after,
         repairs=repairs,
+        obstacles=obstacles,
+        keys=keys,
+        phases=tuple(
+            (
+                min(step.lift for step in steps if step.obstacle == k),
+                max(step.land for step in steps if step.obstacle == k),
+            )
+            for k in range(len(obstacles))
+        ),
     )
     height = CubicSpline(time[rows], motion.com[:, 2])
     path = np.column_stack([moved.com, height(time)])
@@ -198,7 +234,8 @@ def plan_crossing(
     for step in steps:
         lift, land = (round(t / walking.period) for t in (step.lift, step.land))
         contacts[lift:land, FEET.index(step.foot)] = 0.0
-    plan = MotionPlan(
+    return CrossingMotion(
+        report=report,
         start_time=0.0,
         period=walking.period,
         footsteps=footsteps,
@@ -213,7 +250,6 @@ def plan_crossing(
         cart_zmp=moved.com - preview.com_height / GRAVITY * moved.acceleration,
         waist=rpy,
     )
-    return plan, report
 
 
 def _factor(com_height: Vector, zmp_height: Vector, period: float) -> Vector:
@@ -350,6 +386,34 @@ def _feet(
             poses[inside, i, :2] += push[:, None] * x_W
         poses[time > step.land, i] = step.end
     return poses
+
+
+def _yielding_path(
+    poses: LegPoses,
+    gaps: Vector,
+    time: Vector,
+    steps: tuple[TimedStep, ...],
+    body: WholeBody,
+    repairs: Repairs,
+) -> Vector | None:
+    """The third repair for the second foot over the obstacle it is deepest in."""
+    for step in steps:
+        if step.obstacle < 0 or step.leads:
+            continue
+        i = FEET.index(step.foot)
+        inside = np.flatnonzero((time >= step.lift) & (time <= step.land))
+        depth = np.maximum(-gaps[step.obstacle, inside, i], 0.0)
+        if not (depth > 0.0).any():
+            continue
+        leverage = np.zeros(len(inside))
+        for row, angles in enumerate(poses.angles[inside, i]):
+            # The shin half-way between knee and ankle stands for what penetrates.
+            middle = 0.5 * body.leg.shank
+            dP = ankle_displacement(body.leg, step.foot, angles, middle, 1.0)
+            leverage[row] = min(max(dP, 0.5), 3.0)
+        share = (time[inside] - step.lift) / (step.land - step.lift)
+        return penetration_path(depth, share, leverage, repairs.path)
+    return None
 
 
 def _worst(

@@ -35,6 +35,8 @@ class CrossingParams:
     most_short: float = 0.003
     """Most that an ankle of the planned motion may be out of reach, m; the IK makes
     that up in height."""
+    knee_margin: float = 0.10
+    """How far the knees keep off their straightest, rad: nearer to it they race."""
     max_repairs: int = 12
     """Repairs of each kind that the feet adaptor tries."""
 
@@ -48,7 +50,7 @@ class CrossingParams:
         self.feet.validate()
         for name in ("single_support", "double_support", "sampling"):
             require_positive(name, getattr(self, name), "s")
-        for name in ("waist_yaw", "arm_swing", "lean"):
+        for name in ("waist_yaw", "arm_swing", "lean", "knee_margin"):
             require_at_least(name, getattr(self, name), 0.0)
         require_at_least("filter_stages", self.filter_stages, 0)
         require_at_least("max_repairs", self.max_repairs, 0)

@@ -1,5 +1,6 @@
 """The crossing planner as a System: obstacles in, footsteps and motion out."""
 
+import dataclasses
 from collections.abc import Callable
 from dataclasses import dataclass
 from time import perf_counter
@@ -34,10 +35,7 @@ class CrossingPlan(Value):
 
     footsteps: FootstepPlan
     motion: MotionPlan
-    report: CrossingReport | None = None
-    """None where nothing was planned."""
-    times_ms: tuple[tuple[str, float], ...] = ()
-    """Wall time of FU and of FTG to FTA, ms."""
+    """A CrossingMotion with its report where footsteps are planned."""
 
 
 class CrossingPlanner(LeafSystem):
@@ -54,7 +52,6 @@ class CrossingPlanner(LeafSystem):
         output_ports:
         - footstep_plan
         - motion_plan
-        - crossing_plan
 
     - `obstacle_map`: what was seen, abstract ObstacleMap.
     - `goal`: midpoint of the feet and heading at the end in W, (3,), m and rad.
@@ -64,8 +61,7 @@ class CrossingPlanner(LeafSystem):
     - `footstep_plan`: abstract FootstepPlan; infeasible, with the reason, where an
       obstacle cannot be crossed.
     - `motion_plan`: abstract MotionPlan that starts at time 0; it stands where there
-      are no footsteps.
-    - `crossing_plan`: both, with how well the motion does, abstract CrossingPlan.
+      are no footsteps, else it is a CrossingMotion with its report.
     """
 
     def __init__(
@@ -114,7 +110,6 @@ class CrossingPlanner(LeafSystem):
         parts: tuple[tuple[str, Any, Callable[[CrossingPlan], object]], ...] = (
             ("footstep_plan", FootstepPlan(), lambda plan: plan.footsteps),
             ("motion_plan", standing, lambda plan: plan.motion),
-            ("crossing_plan", nothing, lambda plan: plan),
         )
         for name, model, part in parts:
             self.DeclareAbstractOutputPort(
@@ -167,7 +162,7 @@ class CrossingPlanner(LeafSystem):
         asked = perf_counter()
         if steps.plan.status != "planned":
             return CrossingPlan(steps.plan, self._standing)
-        motion, report = plan_crossing(
+        motion = plan_crossing(
             feet,
             com,
             steps.plan.footsteps,
@@ -181,11 +176,13 @@ class CrossingPlanner(LeafSystem):
         )
         done = perf_counter()
         times = (("FU", 1e3 * (asked - start)), ("FTG to FTA", 1e3 * (done - asked)))
+        report = dataclasses.replace(motion.report, planning_ms=times)
+        motion = dataclasses.replace(motion, report=report)
         refusal = self._refusal(steps, report)
         if refusal:
             plan = FootstepPlan((), "infeasible", refusal)
-            return CrossingPlan(plan, self._standing, report, times)
-        return CrossingPlan(steps.plan, motion, report, times)
+            return CrossingPlan(plan, self._standing)
+        return CrossingPlan(steps.plan, motion)
 
     def _refusal(self, steps: CrossingSteps, report: CrossingReport) -> str:
         """Why the motion is not to be carried out; empty where it is."""

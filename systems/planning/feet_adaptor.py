@@ -7,19 +7,17 @@ raised, and last the foot yields by the penetration, through Jacobians (Eqs. 23 
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import TypeVar
+from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 import numpy as np
 
 from systems.obstacle_values import Obstacle, across
-from systems.planning.crossing_timing import TimedStep
 from systems.planning.leg_clearance import Section, outline_gap
-from systems.planning.leg_model import LegModel, outline_points
+from systems.planning.leg_model import LegModel, outline_points, rotations
 from systems.ports import Vector
-from systems.values import FEET
+from systems.values import FEET, Foot, Value
 
-M = TypeVar("M")
 SHIFT = 0.01
 """By which the foot's way is moved to the rear at a time, m."""
 RAISE = 0.01
@@ -29,7 +27,7 @@ KNOTS = 25
 
 
 @dataclass(frozen=True, eq=False)
-class Repairs:
+class Repairs(Value):
     """What was changed in a motion."""
 
     shift: float = 0.0
@@ -41,6 +39,15 @@ class Repairs:
     path: Vector = field(default_factory=lambda: np.zeros(0))
     """Displacement of the second foot along the heading at equal shares of its step,
     m; empty for none."""
+
+
+class LegPoses(NamedTuple):
+    """The legs along a motion."""
+
+    angles: Vector
+    """Leg joints, left first, (n, 2, 6), rad."""
+    soles: Vector
+    """Sole poses, (n, 2, 6)."""
 
 
 def leg_gaps(
@@ -78,13 +85,126 @@ def leg_gaps(
 
 
 def adapt(
-    motion_of: Callable[[Repairs], tuple[M, object, Vector]],
-    gaps_of: Callable[[M, Vector], Vector],
-    time: Vector,
-    steps: tuple[TimedStep, ...],
+    poses_of: Callable[[Repairs], LegPoses],
+    gaps_of: Callable[[LegPoses], Vector],
+    second: Callable[[LegPoses, Repairs], Repairs | None],
+    knee_margin: Vector,
     tries: int,
-) -> tuple[Repairs, tuple[M, object, Vector]]:
-    """Repairs a motion until nothing meets the inflated obstacles, or tries run out."""
+) -> Repairs:
+    """Finds repairs after which nothing meets the inflated obstacles, if it can.
+
+    Args:
+        poses_of: the legs' motion for given repairs.
+        gaps_of: distances of the legs to the inflated obstacles, (m, n, 2), m.
+        second: the third repair: by Jacobians, from poses and the repairs so far; None
+            where it changes nothing.
+        knee_margin: least knee angle of either leg, (2,), rad: below it the waist is
+            lowered.
+        tries: how often each repair is tried.
+
+    Returns:
+        The repairs with the largest least gap that were found.
+    """
     repairs = Repairs()
-    best = motion_of(repairs)
-    return repairs, best
+    poses = poses_of(repairs)
+    for _ in range(tries):
+        if (poses.angles[:, :, 3].min(axis=0) >= knee_margin).all():
+            break
+        repairs = replace(repairs, lowered=repairs.lowered + RAISE)
+        poses = poses_of(repairs)
+    best, gap = repairs, _least(gaps_of(poses))
+    if gap > 0.0:
+        return best
+    for change in (
+        lambda r: replace(r, shift=r.shift + SHIFT),
+        lambda r: replace(r, raised=r.raised + RAISE),
+        lambda r: second(poses_of(r), r),
+    ):
+        for _ in range(tries):
+            repairs_next = change(best)
+            if repairs_next is None:
+                break
+            poses = poses_of(repairs_next)
+            found = _least(gaps_of(poses))
+            if found <= gap + 1e-4:
+                break
+            best, gap = repairs_next, found
+            if gap > 0.0:
+                return best
+    return best
+
+
+def _least(gaps: Vector) -> float:
+    return float(gaps.min()) if gaps.size else np.inf
+
+
+def ankle_displacement(
+    leg: LegModel, foot: Foot, angles: Vector, p_K: Vector, depth: float
+) -> float:
+    """How far the ankle moves for a point of the shank to move by dS (Eqs. 23 to 25).
+
+    dP = J_p J_s^+ dS, with both Jacobians (3 x 4) of hip pitch, roll, yaw and knee in a
+    frame attached to the waist; dS is horizontal.
+
+    Args:
+        leg: the legs.
+        foot: which.
+        angles: of the leg, (6,), rad.
+        p_K: the point in the shank's sagittal plane, from the knee, (x, z), m.
+        depth: horizontal length of dS, m.
+
+    Returns:
+        Horizontal part of dP along dS, m.
+    """
+    axes, origins, R_PK, p_PKnee = _shank_chain(leg, foot, angles)
+    p_PS = p_PKnee + R_PK @ np.array([p_K[0], 0.0, p_K[1]])
+    p_PAnkle = p_PKnee + R_PK @ np.array([leg.shank[0], 0.0, leg.shank[1]])
+    J_s = np.cross(axes, p_PS - origins).T
+    J_p = np.cross(axes, p_PAnkle - origins).T
+    dS = np.array([depth, 0.0, 0.0])
+    return float((J_p @ np.linalg.pinv(J_s) @ dS)[0])
+
+
+def _shank_chain(
+    leg: LegModel, foot: Foot, angles: Vector
+) -> tuple[Vector, Vector, Vector, Vector]:
+    """Axes and origins of hip pitch, roll, yaw and knee in P, (4, 3); pose of K."""
+    zero = 0.0
+    pitch = rotations(np.array([[zero, angles[0], zero]]))[0]
+    roll = rotations(np.array([[angles[1], zero, zero]]))[0]
+    yaw = rotations(np.array([[zero, zero, angles[2]]]))[0]
+    knee = rotations(np.array([[zero, angles[3], zero]]))[0]
+    hip = leg.hips[foot]
+    R_PT = pitch @ roll @ yaw
+    p_PKnee = hip + R_PT @ np.array([leg.thigh[0], 0.0, leg.thigh[1]])
+    axes = np.array([[0.0, 1.0, 0.0], pitch[:, 0], (pitch @ roll)[:, 2], R_PT[:, 1]])
+    return axes, np.array([hip, hip, hip, p_PKnee]), R_PT @ knee, p_PKnee
+
+
+def penetration_path(
+    depth: Vector, share: Vector, leverage: Vector, path: Vector
+) -> Vector | None:
+    """The third repair as a smooth displacement of the second foot's way.
+
+    Args:
+        depth: how deep the leg is in the inflated obstacle at each row of phase 3,
+            (n,), m; 0 where it is not.
+        share: of phase 3 that has passed at each row, (n,).
+        leverage: horizontal displacement of the ankle per penetration (Eq. 25), (n,).
+        path: displacement so far at `KNOTS` equal shares, or empty.
+
+    Returns:
+        The new displacement, (KNOTS,), m, negative to the rear; None without depth.
+    """
+    if not (depth > 0.0).any():
+        return None
+    knots = np.linspace(0.0, 1.0, KNOTS)
+    wanted = np.zeros(KNOTS)
+    width = 3.0 / (KNOTS - 1)
+    for u, d, k in zip(share, depth, leverage, strict=True):
+        if d > 0.0:
+            shape = np.exp(-0.5 * ((knots - u) / width) ** 2)
+            wanted = np.minimum(wanted, -min(k * d + 0.002, 0.03) * shape)
+    ends = np.clip(np.minimum(knots, 1.0 - knots) / 0.15, 0.0, 1.0)
+    total: Vector = (path if path.size else 0.0) + wanted * ends
+    return total

@@ -183,7 +183,7 @@ def _crossing_knots(
     middle = 0.5 * (lifted + lowering)
     rows = [
         [0.0, 0.0, 0.0, 0.0],
-        [0.5 * lifted, 0.6 * back, 0.5 * heights[0], 0.6 * first],
+        [0.5 * lifted, 0.6 * back, 0.4 * heights[0], 0.5 * first],
         [lifted, back + 0.02, heights[0], first],
         [middle, 0.5 * (back + last), max(heights[1], high), over],
         [lowering, last, high, 0.0],

@@ -1,0 +1,159 @@
+"""What an obstacle crossing is measured by, from the truth of the plant."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from diagrams.box_clearance import BoxClearance, crossed
+from diagrams.measures import contact_intervals
+from diagrams.true_motion import TrueMotion
+from models.solids import Box
+from systems.obstacle_values import Obstacle, ObstacleMap
+from systems.planning.crossing_motion import CrossingReport
+from systems.ports import Vector
+from systems.values import FEET, Foot, Json, to_json
+
+BOX_PREFIX = "box/"
+"""What the names of obstacles begin with."""
+LANDING_TIME = 0.15
+"""After touch-down a foot's force counts as impact for this long, s."""
+
+
+@dataclass(frozen=True)
+class CrossingEvidence:
+    """What the judge is shown of an obstacle crossing."""
+
+    boxes: tuple[Box, ...]
+    """The true obstacles."""
+    clearances: tuple[BoxClearance, ...]
+    """How near the robot came to each that it came near to."""
+    maps: tuple[ObstacleMap, ...]
+    """What the eyes saw, one entry a sweep."""
+    reports: tuple[CrossingReport, ...]
+    """What the planner says of its motions."""
+
+
+@dataclass(frozen=True)
+class CrossingMeasures:
+    """One box that was crossed."""
+
+    time: float
+    """From the first foot's lift-off to the second's touch-down: phases 1 to 3, s."""
+    impact: float
+    """Largest force on a crossing foot as it lands, in body weights."""
+
+
+def midpoints(motion: TrueMotion) -> Vector:
+    """Midpoint of the feet over time, (n, 2), m."""
+    both = [motion.X_WF[foot][:, :2, 3] for foot in FEET]
+    middle: Vector = np.mean(both, axis=0)
+    return middle
+
+
+def measure_crossing(
+    motion: TrueMotion, forces: dict[Foot, Vector], weight: float, box: Box
+) -> CrossingMeasures | None:
+    """Phases 1 to 3 over one box; None where not both feet crossed it.
+
+    Args:
+        motion: where the feet truly were.
+        forces: total contact force on each foot, (n,), N.
+        weight: of the robot, N.
+        box: which.
+    """
+    lifts, lands, impacts = [], [], []
+    for foot in FEET:
+        p_W = motion.X_WF[foot][:, :3, 3]
+        p_B = np.array(box.X_WB.inverse().multiply(p_W.T)).T
+        axis = int(np.argmin(box.size[:2]))
+        intervals = contact_intervals(forces[foot], weight)
+        for before, after in zip(intervals[:-1], intervals[1:], strict=True):
+            start, end = before.end - 1, after.start
+            if p_B[start, axis] * p_B[end, axis] < 0.0:
+                lifts.append(float(motion.time[start]))
+                lands.append(float(motion.time[end]))
+                landing = (motion.time >= motion.time[end]) & (
+                    motion.time <= motion.time[end] + LANDING_TIME
+                )
+                impacts.append(float(forces[foot][landing].max() / weight))
+    if len(lifts) < 2:
+        return None
+    return CrossingMeasures(max(lands) - min(lifts), max(impacts))
+
+
+def obstacles_crossed(motion: TrueMotion, boxes: Sequence[Box]) -> int:
+    """How many boxes the feet went over and ended beyond."""
+    return sum(crossed(midpoints(motion), box) for box in boxes)
+
+
+def eyes_summary(evidence: CrossingEvidence) -> dict[str, Json]:
+    """How far the obstacles that were seen are from the true ones.
+
+    `frames`, then over all that were seen the mean and the largest error of the width,
+    the height and the distance of the front face (m) and of the yaw (deg); None
+    without any.
+    """
+    errors = [
+        error
+        for seen in evidence.maps
+        for obstacle in seen.obstacles
+        if (error := _errors(obstacle, seen.floor_height, evidence.boxes)) is not None
+    ]
+    summary: dict[str, Json] = {}
+    if errors:
+        names = ("width_m", "height_m", "front_m", "yaw_deg")
+        for name, column in zip(names, np.abs(errors).T, strict=True):
+            summary[f"mean_{name}"] = round(float(column.mean()), 5)
+            summary[f"max_{name}"] = round(float(column.max()), 5)
+    return {"frames": len(evidence.maps), "errors": summary or None}
+
+
+def _errors(obstacle: Obstacle, floor: float, boxes: Sequence[Box]) -> Vector | None:
+    if not boxes:
+        return None
+    box = min(
+        boxes,
+        key=lambda item: float(
+            np.linalg.norm(item.X_WB.translation()[:2] - obstacle.center)
+        ),
+    )
+    thin = int(np.argmin(box.size[:2]))
+    across = np.array(box.X_WB.rotation().matrix()[:2, thin])
+    ahead = np.array([np.cos(obstacle.yaw), np.sin(obstacle.yaw)])
+    across = across if across @ ahead >= 0.0 else -across
+    turn = np.degrees(
+        np.arcsin(np.clip(across[0] * ahead[1] - across[1] * ahead[0], -1, 1))
+    )
+    true_front = box.X_WB.translation()[:2] @ across - box.size[thin] / 2.0
+    front = obstacle.center @ across - obstacle.width / 2.0
+    height = box.X_WB.translation()[2] + box.size[2] / 2.0
+    return np.array(
+        [
+            obstacle.width - box.size[thin],
+            obstacle.height - (height - floor),
+            front - true_front,
+            turn,
+        ]
+    )
+
+
+def planning_summary(reports: Sequence[CrossingReport]) -> dict[str, Json] | None:
+    """What the planner says of its crossings, the worst of each figure; None if none.
+
+    ZMP errors are (x, y), m, over phases 1 to 3, of the multibody ZMP to its reference.
+    """
+    reports = [report for report in reports if report.obstacles]
+    if not reports:
+        return None
+    before = np.max([report.zmp_error_before for report in reports], axis=0)
+    after = np.max([report.zmp_error_after for report in reports], axis=0)
+    times = [sum(ms for _, ms in report.planning_ms) for report in reports]
+    return {
+        "zmp_error_after_cwtg1_m": to_json(np.round(before, 5)),
+        "zmp_error_after_cwtg2_m": to_json(np.round(after, 5)),
+        "planned_gap_m": round(min(report.gap for report in reports), 5),
+        "planning_ms": round(max(times), 1),
+        "keys": [to_json(key) for report in reports for key in report.keys],
+        "repairs": [to_json(report.repairs) for report in reports],
+    }

@@ -1,0 +1,133 @@
+"""Eyes: width, height, position and yaw of what stands on the floor, from a scan."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from models.validation import require_at_least, require_positive
+from systems.obstacle_values import Obstacle, ObstacleMap
+from systems.perception.boxes import even_rectangle, top_height
+from systems.perception.clusters import cluster_points
+from systems.ports import Vector
+
+
+@dataclass(kw_only=True)
+class ObstacleFinderParams:
+    """What counts as an obstacle, and where it is looked for."""
+
+    period: float = 0.025
+    """Between looks at whether a sweep is finished, s."""
+    reach: float = 3.0
+    """How far from the sensor obstacles are looked for, m, horizontally; farther ones
+    are seen too thinly."""
+    floor_window: float = 0.02
+    """Half the thickness of the level of points that is the floor, m."""
+    min_height: float = 0.02
+    """What is lower above the floor can be walked over, m."""
+    max_height: float = 1.2
+    """What is higher above the floor is none, m."""
+    radius: float = 0.06
+    """Gap between points that separates two obstacles, m."""
+    cell: float = 0.02
+    """Columns in which points are gathered before, m."""
+    min_points: int = 40
+    """Clusters with fewer points are noise."""
+    top_window: float = 0.012
+    """Half the thickness of the level of points that is a top, m: two deviations."""
+    tail: float = 0.02
+    """Share of the top's points at either end that does not bound it."""
+
+    def validate(self) -> None:
+        """Checks every field.
+
+        Raises:
+            ValueError: "field: reason, got x" for the first field that is wrong.
+        """
+        require_positive("period", self.period, "s")
+        for name in (
+            "reach",
+            "floor_window",
+            "min_height",
+            "max_height",
+            "radius",
+            "cell",
+            "top_window",
+        ):
+            require_positive(name, getattr(self, name), "m")
+        require_at_least("min_points", self.min_points, 3)
+        if not 0.0 <= self.tail < 0.25:
+            raise ValueError(f"tail: must lie in [0, 0.25), got {self.tail:g}")
+
+
+def find_obstacles(
+    points: Vector, viewpoint: Vector, params: ObstacleFinderParams
+) -> ObstacleMap:
+    """The obstacles in a cloud.
+
+    The floor is the densest level below the sensor. What stands out of it is grouped;
+    each group's top is its highest dense level, and the least rectangle that the top's
+    points fill is its footprint. Its thin side is what is stepped across.
+
+    Args:
+        points: in W, (n, 3), m.
+        viewpoint: where they were seen from, (3,), m.
+        params: see there.
+    """
+    points = points[np.isfinite(points).all(axis=1)]
+    near = np.hypot(*(points[:, :2] - viewpoint[:2]).T) < params.reach
+    points = points[near & (points[:, 2] < viewpoint[2] - 0.3)]
+    if len(points) < params.min_points:
+        return ObstacleMap(status="no floor")
+    floor = floor_height(points[:, 2], params.floor_window)
+    height = points[:, 2] - floor
+    above = points[(height > params.min_height) & (height < params.max_height)]
+    labels = cluster_points(above, params.radius, params.cell)
+    found = []
+    for label in range(labels.max(initial=-1) + 1):
+        cluster = above[labels == label]
+        if len(cluster) >= params.min_points:
+            found.append(fit_obstacle(cluster, floor, viewpoint, params))
+    found.sort(key=lambda item: float(np.linalg.norm(item.center - viewpoint[:2])))
+    return ObstacleMap(tuple(found), floor, "ok")
+
+
+def floor_height(z: Vector, window: float) -> float:
+    """The densest level of heights, (n,), m: the mean of its points."""
+    z = np.sort(z)
+    first = np.searchsorted(z, z - window, side="left")
+    last = np.searchsorted(z, z + window, side="right")
+    level = float(z[int(np.argmax(last - first))])
+    return float(z[np.abs(z - level) <= window].mean())
+
+
+def fit_obstacle(
+    points: Vector, floor: float, viewpoint: Vector, params: ObstacleFinderParams
+) -> Obstacle:
+    """The rectangle and the height of one group of points.
+
+    Args:
+        points: at least three, in W, (n, 3), m.
+        floor: height of what it stands on, m.
+        viewpoint: where it was seen from, (3,), m.
+        params: see `ObstacleFinderParams`.
+    """
+    z_top = top_height(points[:, 2], params.top_window, 0.35)
+    top = points[points[:, 2] > z_top - 0.5 * params.top_window]
+    plan = top[:, :2]
+    if len(top) >= params.min_points // 2:
+        # The rays of the top's points meet it at its height: that takes the noise
+        # along the ray out of their place.
+        ray = top - viewpoint
+        scale = (z_top - viewpoint[2]) / np.minimum(ray[:, 2], -1e-3)
+        plan = viewpoint[:2] + scale[:, None] * ray[:, :2]
+    middle, yaw, extent = even_rectangle(plan, params.tail)
+    if extent[0] > extent[1]:
+        yaw, extent = yaw + np.pi / 2.0, extent[::-1]
+    return Obstacle(
+        center=middle,
+        yaw=yaw,
+        width=float(extent[0]),
+        height=float(z_top - floor),
+        length=float(extent[1]),
+        support_count=len(points),
+    )
