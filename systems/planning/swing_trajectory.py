@@ -181,7 +181,8 @@ def swing_trajectory(
     timing, short = _gentlest(swing, params)
     n = max(1, round(duration / period))
     u = np.linspace(0.0, 1.0, n + 1)
-    progress, back, z, pitch = (rows[0] for rows in _blends(swing, timing[None, :], u))
+    shares = _shares(timing[None, :], u)
+    progress, back, z, pitch = (rows[0] for rows in _blends(swing, shares))
     roll = rpy0[0] + progress * wrap(rpy1[0] - rpy0[0])
     yaw = rpy0[2] + progress * wrap(rpy1[2] - rpy0[2])
     level = sole.toe * np.cos(pitch)
@@ -200,15 +201,28 @@ def swing_trajectory(
     return SwingTrajectory(positions, rpy, clearance, status)
 
 
-def _blends(
-    swing: _Swing, timings: Vector, u: Vector
-) -> tuple[Vector, Vector, Vector, Vector]:
-    """Progress, retraction, m, toe height, m, pitch, rad: (k, n) of k timings."""
+def _shares(timings: Vector, u: Vector) -> tuple[Vector, Vector, Vector, Vector]:
+    """How far up, down, ahead and drawn back the foot is, 0 to 1: (k, n) of k timings.
+
+    They do not depend on the swing.
+    """
     lifted, lowering, departure, arrival = timings.T[:, :, None]
     up = quintic(u / lifted)
     down = quintic((u - lowering) / (1.0 - lowering))
     progress = quintic((u - departure) / (arrival - departure))
     back = quintic(u / 0.2) * (1.0 - quintic((u - 0.2) / 0.3)) + 0.0 * up
+    return up, down, progress, back
+
+
+GRID_SHARES = _shares(GRID, SAMPLES)
+"""Of every timing that is tried: the same for every step of a walk."""
+
+
+def _blends(
+    swing: _Swing, shares: tuple[Vector, Vector, Vector, Vector]
+) -> tuple[Vector, Vector, Vector, Vector]:
+    """Progress, retraction, m, toe height, m, pitch, rad: (k, n) of k timings."""
+    up, down, progress, back = shares
     z = swing.start_z + up * (swing.apex - swing.start_z)
     z = z + down * (swing.end_z - swing.apex)
     pitch = swing.start_pitch + up * (swing.pitch - swing.start_pitch)
@@ -245,7 +259,7 @@ def _gentlest(swing: _Swing, params: SwingParams) -> tuple[Vector, float]:
         Its row of the grid, and by how much it falls short of the distances, m: above
         0 only where none keeps them, and then the least.
     """
-    progress, back, z, pitch = _blends(swing, GRID, SAMPLES)
+    progress, back, z, pitch = _blends(swing, GRID_SHARES)
     short = np.zeros(len(GRID))
     falling = GRID[:, 1:2] <= SAMPLES
     low = falling & (z - swing.end_z < params.touch_down_height)
