@@ -12,13 +12,16 @@ class ChoiceParams:
     """Forward pitches of the pelvis that dynamic climbing tries, in order, rad."""
     toe_offs: list[float] = field(default_factory=lambda: [0.7, 0.55])
     """Largest pitches of the rear foot that are tried with each, rad."""
-    quasi_static_leans: list[float] = field(
-        default_factory=lambda: [0.45, 0.35, 0.55, 0.25]
+    quasi_static_forwards: list[float] = field(
+        default_factory=lambda: [0.12, 0.09, 0.06]
     )
-    """The same for quasi-static climbing, which rests where the knee bends most."""
-    lifted_heights: list[float] = field(default_factory=lambda: [0.76, 0.73, 0.70])
-    """Heights of the CoM above the upper tread at which the rear foot may leave the
-    ground in quasi-static climbing, m."""
+    """How far ahead of the upper ankle the CoM rests in quasi-static climbing, m."""
+    quasi_static_heights: list[float] = field(default_factory=lambda: [0.76, 0.72])
+    """How high above the upper tread it is when the rear foot leaves the ground, m."""
+    quasi_static_leans: list[float] = field(default_factory=lambda: [0.45, 0.3, 0.6])
+    """Forward pitches of the pelvis in quasi-static climbing, rad."""
+    quasi_static_toe_off: float = 0.7
+    """Pitch of the rear foot in quasi-static climbing, rad."""
     torque_window: float = 0.3
     """Predicted torques are averaged over this in dynamic climbing, s: a servo that is
     at its limit for a moment lets the body sink a little."""
@@ -37,7 +40,13 @@ class ChoiceParams:
         Raises:
             ValueError: "field: reason, got x" for the first field that is wrong.
         """
-        for name in ("leans", "toe_offs", "quasi_static_leans", "lifted_heights"):
+        for name in (
+            "leans",
+            "toe_offs",
+            "quasi_static_forwards",
+            "quasi_static_heights",
+            "quasi_static_leans",
+        ):
             values = getattr(self, name)
             if not values or not all(0.0 <= value < math.inf for value in values):
                 raise ValueError(
@@ -47,7 +56,12 @@ class ChoiceParams:
         for name in ("torque_share", "reach_tolerance"):
             if not 0.0 < getattr(self, name) < math.inf:
                 raise ValueError(f"{name}: must be positive, got {getattr(self, name)}")
-        for name in ("torque_window", "quasi_static_torque_window", "limb_clearance"):
+        for name in (
+            "torque_window",
+            "quasi_static_torque_window",
+            "limb_clearance",
+            "quasi_static_toe_off",
+        ):
             if not 0.0 <= getattr(self, name) < math.inf:
                 raise ValueError(
                     f"{name}: must not be negative, got {getattr(self, name)}"

@@ -3,7 +3,7 @@
 import dataclasses
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import product
+from itertools import pairwise, product
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -13,13 +13,20 @@ from systems.balance.zmp_preview import ZmpPreviewParams
 from systems.planning.choice_params import ChoiceParams
 from systems.planning.motion import plan_motion
 from systems.planning.motion_params import MotionPlannerParams
-from systems.planning.motion_prediction import MotionPrediction, MotionPredictor
+from systems.planning.motion_prediction import (
+    TICK,
+    MotionPrediction,
+    MotionPredictor,
+)
 from systems.planning.quasi_static import Climb, plan_segments, unstable_segment
 from systems.planning.quasi_static_motion import play_segments
 from systems.ports import Vector
 from systems.values import FEET, Footstep, MotionPlan
 
 Mode: TypeAlias = Literal["dynamic", "quasi_static"]
+
+QUASI_STATIC_TICK = 0.03
+"""Between the postures of a slow motion that are looked at, s."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +80,9 @@ def choose_motion(
         elif predictor is None or not climbs:
             return plan
         else:
-            prediction = predictor.predict(plan, task.edges, yaw)
+            first = 0.0 if dynamic else _first_rise(plan, params)
+            tick = TICK if dynamic else QUASI_STATIC_TICK
+            prediction = predictor.predict(plan, task.edges, yaw, tick, first)
             excess, reason = violation(prediction, window, choice)
             if not reason:
                 return plan
@@ -151,10 +160,12 @@ def _quasi_static(
     robot: RobotModel,
 ) -> Iterator[MotionPlan]:
     choice = params.choice
-    for toe_off, height, lean in product(
-        choice.toe_offs, choice.lifted_heights, choice.quasi_static_leans
+    for forward, height, lean in product(
+        choice.quasi_static_forwards,
+        choice.quasi_static_heights,
+        choice.quasi_static_leans,
     ):
-        climb = Climb(lean, toe_off, height)
+        climb = Climb(lean, choice.quasi_static_toe_off, height, forward)
         segments = plan_segments(
             task.feet, task.com, task.footsteps, climb, params, robot
         )
@@ -178,6 +189,20 @@ def _standing(
         task.feet, task.com, (), np.zeros((0, 3)), params, preview, robot
     )
     return dataclasses.replace(plan, reason=reason)
+
+
+def _first_rise(plan: MotionPlan, params: MotionPlannerParams) -> float:
+    """When the segment begins before the one in which a foot first rises, s.
+
+    Every segment begins at rest, so that the prediction may begin there.
+    """
+    period = plan.period
+    for before, phase in pairwise(plan.phases):
+        first, last = (round(t / period) for t in (phase.start, phase.end))
+        rise = plan.foot_poses[last, :, 2] - plan.foot_poses[first, :, 2]
+        if phase.swing is not None and np.abs(rise).max() > params.climb_threshold:
+            return before.start
+    return 0.0
 
 
 def _climbs(task: MotionTask, params: MotionPlannerParams) -> bool:

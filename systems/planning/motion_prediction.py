@@ -129,7 +129,12 @@ class MotionPredictor:
         ]
 
     def predict(
-        self, plan: MotionPlan, edges: Vector, yaw: float, tick: float = TICK
+        self,
+        plan: MotionPlan,
+        edges: Vector,
+        yaw: float,
+        tick: float = TICK,
+        first: float = 0.0,
     ) -> MotionPrediction:
         """Carries out a plan in thought.
 
@@ -139,18 +144,21 @@ class MotionPredictor:
                 all that is ahead of it and below it.
             yaw: direction in which the stairs go up, rad.
             tick: between the postures that are looked at, s.
+            first: when the prediction begins, s after the plan's start; the plan is
+                at rest then.
 
         Returns:
             The prediction.
         """
         plant, context = self._plant, self._plant.CreateDefaultContext()
         stride = max(1, round(tick / plan.period))
-        rows = [int(row) for row in range(0, len(plan.zmp), stride)]
+        begin = round(first / plan.period)
+        rows = list(range(begin, len(plan.zmp), stride))
         time: Vector = np.array(rows) * plan.period
         step = stride * plan.period
         q = self._ik.posture.copy()
-        q[4:7] = plan.com[0]
-        at_rest = self._target(plan, 0, 0)
+        q[4:7] = plan.com[begin]
+        at_rest = self._target(plan, begin, 0)
         for _ in range(SETTLING_TICKS):
             plant.SetPositions(context, q)
             settling, _ = self._ik.solve(context, at_rest)

@@ -56,6 +56,9 @@ class Climb:
     """Pitch of the rear foot when it leaves the ground, rad."""
     lifted_height: float
     """CoM above the upper tread then, m."""
+    forward: float
+    """CoM ahead of the upper ankle then, m: far forward the weight takes least torque
+    of the bent knee, which comes nearer to the next nosing."""
 
 
 class _Builder:
@@ -226,7 +229,7 @@ def _over(
     left: Vector = heading(pose[5] + np.pi / 2.0)
     inward = -left if foot == "left" else left
     p_WCom = pose[:3].copy()
-    forward = quasi.upper_forward if up else quasi.forward
+    forward = climb.forward if up else quasi.forward
     p_WCom[:2] += forward * heading(pose[5]) + quasi.inward * inward
     p_WCom[2] += climb.lifted_height if up else params.com_height
     return p_WCom

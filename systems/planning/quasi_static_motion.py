@@ -59,8 +59,8 @@ def play_segments(
         start = row * period
         row += count + pause
         phases.append(ContactPhase(start, row * period, segment.stance, segment.swing))
-    velocity: Vector = np.gradient(com, period, axis=0)
-    acceleration: Vector = np.gradient(velocity, period, axis=0)
+    velocity: Vector = np.asarray(np.gradient(com, period, axis=0))
+    acceleration: Vector = np.asarray(np.gradient(velocity, period, axis=0))
     zmp[:, :2] = com[:, :2]
     waist[:, 2] = poses[:, :, 5].mean(axis=1)
     return MotionPlan(

@@ -25,9 +25,6 @@ class QuasiStaticParams:
     """mu of the pyramids that the polygons are computed with; below the ground's."""
     forward: float = 0.035
     """CoM over the foot it stands on, ahead of the ankle, m."""
-    upper_forward: float = 0.12
-    """The same over a foot that has just stepped up, m: far forward, where the weight
-    takes least torque of the bent knee."""
     inward: float = 0.008
     """CoM over the foot it stands on, towards the other foot, m."""
 
@@ -45,7 +42,7 @@ class QuasiStaticParams:
         ):
             if not 0.0 < getattr(self, name) < math.inf:
                 raise ValueError(f"{name}: must be positive, got {getattr(self, name)}")
-        for name in ("rest", "margin", "forward", "upper_forward", "inward"):
+        for name in ("rest", "margin", "forward", "inward"):
             if not 0.0 <= getattr(self, name) < math.inf:
                 raise ValueError(
                     f"{name}: must not be negative, got {getattr(self, name)}"
