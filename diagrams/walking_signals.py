@@ -125,6 +125,12 @@ def record_walking(
             contact_columns,
             ("1", "1", "m", "m"),
         )
+    add(
+        "static_stability.margin",
+        walking.stability.GetOutputPort("margin"),
+        ("margin",),
+        "m",
+    )
     recorder.add_value(
         "static_stability.polygon",
         walking.stability.GetOutputPort("polygon"),
