@@ -5,6 +5,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from diagrams.scenario import load_scenario
+from models.jvrc1 import JVRC1
 from models.robot import Sole
 from models.room import RoomParams
 from models.room_obstacles import ClutterParams, place_boxes
@@ -14,6 +16,7 @@ from systems.perception.depth_cloud import depth_to_points, downsample
 from systems.perception.environment_xml import read_environment, write_environment
 from systems.perception.floor import FloorParams, extract_floor
 from systems.planning.footstep_params import FootstepPlannerParams
+from systems.planning.motion import plan_motion
 from systems.planning.path_footsteps import plan_path_footsteps
 from systems.planning.path_params import PathPlannerParams
 from systems.planning.path_search import plan_path
@@ -21,7 +24,7 @@ from systems.room_values import DepthImage, Environment
 from systems.sensing.depth_camera import DepthCameraParams, measure_depth
 from systems.sensing.pinhole import pixel_rays
 from systems.sensing.ray_caster import RayCaster
-from systems.values import FootstepPlan
+from systems.values import FootstepPlan, MotionPlan
 from tests.systems.planning.room_cases import stand
 
 SOLE = Sole(heel=0.075, toe=0.150, half_width=0.042, ankle_height=0.1077)
@@ -77,3 +80,26 @@ def test_planning(benchmark: Any, seed: int) -> None:
     """Path and footsteps past eight boxes as they were perceived."""
     footsteps = benchmark(plan, perceive(depth_image(seed)))
     assert footsteps.status == "planned"
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_whole_planning(benchmark: Any, seed: int) -> None:
+    """The same with the motion along the footsteps, its ZMP pattern included."""
+    environment = perceive(depth_image(seed))
+    params = load_scenario("room").parameters
+    feet = np.array([[*START, 0.0, 0.0, 0.0, 0.0]] * 2)
+    feet[:, 1] += [0.095, -0.095]
+    com = np.array([*START, params.motion_planner.com_height])
+
+    def whole() -> MotionPlan:
+        return plan_motion(
+            feet,
+            com,
+            plan(environment).footsteps,
+            np.zeros((0, 3)),
+            params.motion_planner,
+            params.zmp_preview,
+            JVRC1,
+        )
+
+    assert benchmark(whole).duration > 15.0
