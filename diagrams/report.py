@@ -13,6 +13,7 @@ from matplotlib.patches import Polygon
 from diagrams.measures import LIFTED, contact_intervals, measured_zmp
 from diagrams.room_view import draw_room
 from diagrams.run_data import RunData, read_run_data
+from diagrams.transverse_view import POLYGON_SIGNAL, transverse_view
 from models.staircase import Tread
 from systems.ports import Vector
 from systems.values import FEET, Foot
@@ -37,8 +38,9 @@ def plot_run(folder: Path) -> list[Path]:
 
     `balance.png` CoM, DCM and ZMP over time against the support; `top_view.png` treads,
     boxes, path, footsteps and CoM from above; `side_view.png` how the feet passed the
-    steps; `feet.png` heights of and forces on the feet; `joints.png` torques and speeds
-    as shares of their limits. What was not logged is left out of them.
+    steps; `static_stability.png` where the CoM might rest, as in the stair paper's
+    Fig. 7; `feet.png` heights of and forces on the feet; `joints.png` torques and
+    speeds as shares of their limits. What was not logged is left out of them.
 
     Raises:
         RunError: the folder holds no run, or one without the plant's state.
@@ -53,6 +55,8 @@ def plot_run(folder: Path) -> list[Path]:
     }
     if data.treads:
         figures["side_view"] = side_view
+    if data.treads and POLYGON_SIGNAL in data.run.value_names:
+        figures["static_stability"] = transverse_view
     target = folder / FIGURES_FOLDER
     target.mkdir(exist_ok=True)
     paths = []
