@@ -34,6 +34,9 @@ class ObstacleFinderParams:
     """Clusters with fewer points are noise."""
     top_window: float = 0.012
     """Half the thickness of the level of points that is a top, m: two deviations."""
+    back_allowance: float = 0.006
+    """Added behind the top's farthest points, m: its edge lies up to a scan line
+    beyond them."""
     tail: float = 0.02
     """Share of the top's points at either end that does not bound it."""
 
@@ -123,6 +126,19 @@ def fit_obstacle(
     middle, yaw, extent = even_rectangle(plan, params.tail)
     if extent[0] > extent[1]:
         yaw, extent = yaw + np.pi / 2.0, extent[::-1]
+    height = points[:, 2] - floor
+    face = points[(height > params.min_height) & (points[:, 2] < z_top - 0.02)]
+    refined = _front_face(face[:, :2], viewpoint[:2], params)
+    if refined is not None:
+        yaw, front = refined
+        x_W = np.array([np.cos(yaw), np.sin(yaw)])
+        y_W = np.array([-x_W[1], x_W[0]])
+        back = float(np.quantile(plan @ x_W, 1.0 - params.tail)) + params.back_allowance
+        width = max(back - front, params.back_allowance)
+        sides = np.quantile(points[:, :2] @ y_W, [params.tail, 1.0 - params.tail])
+        beyond = (sides[1] - sides[0]) * params.tail / (1.0 - 2.0 * params.tail)
+        middle = (front + 0.5 * width) * x_W + 0.5 * sides.sum() * y_W
+        extent = np.array([width, sides[1] - sides[0] + 2.0 * beyond])
     return Obstacle(
         center=middle,
         yaw=yaw,
@@ -131,3 +147,32 @@ def fit_obstacle(
         length=float(extent[1]),
         support_count=len(points),
     )
+
+
+def _front_face(
+    face: Vector, viewpoint: Vector, params: ObstacleFinderParams
+) -> tuple[float, float] | None:
+    """Direction across the face that was seen, away from the sensor, and where it is.
+
+    Args:
+        face: points below the top, (n, 2), m.
+        viewpoint: (2,), m.
+        params: how many points make a face.
+
+    Returns:
+        Yaw, rad, and the distance of the face along it from W's origin, m; None where
+        the points lie on no single face.
+    """
+    for _ in range(2):
+        if len(face) < params.min_points // 2:
+            return None
+        middle = face.mean(axis=0)
+        _, _, axes = np.linalg.svd(face - middle, full_matrices=False)
+        x_W = axes[1] if axes[1] @ (middle - viewpoint) >= 0.0 else -axes[1]
+        off = (face - middle) @ x_W
+        face = face[np.abs(off - np.median(off)) < 0.02]
+    spread, length = off.std(), np.ptp((face - middle) @ axes[0])
+    if spread > 0.012 or length < 4.0 * spread:
+        return None
+    front = float(np.median(face @ x_W))
+    return float(np.arctan2(x_W[1], x_W[0])), front

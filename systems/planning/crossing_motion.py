@@ -129,7 +129,7 @@ def plan_crossing(
         return _feet(at, steps, feet, obstacles, crossing, body, walking, repairs)
 
     def waist_of(repairs: Repairs, at: Vector) -> Vector:
-        return _waist_height(at, steps, keys, start_waist[2], ground, repairs, end)
+        return _waist_height(at, steps, keys, start_waist[2], ground, repairs, crossing)
 
     guess = np.tile(start_waist[:2] - com[:2], (len(rows), 1))
 
@@ -163,9 +163,23 @@ def plan_crossing(
         guess = motion.waist[:, :2] - motion.com[:, :2]
         return motion, soles
 
+    window = _crossing_rows(time[rows], steps)
+    looked = rows[window][::2]
+
     def poses_of(repairs: Repairs) -> LegPoses:
         moved, waist_height, _ = single_mass(repairs)
-        motion, soles = legs_of(repairs, moved, waist_height, 0)
+        soles = feet_of(repairs, time[looked])
+        motion = body_motion(
+            body,
+            context,
+            moved.com[looked],
+            waist_height[looked],
+            rpy[looked],
+            soles,
+            {name: angle[window][::2] for name, angle in posture.items()},
+            np.tile(start_waist[:2] - com[:2], (len(looked), 1)),
+            rounds=1,
+        )
         return LegPoses(motion.angles, soles)
 
     sections = tuple(section_of(obstacle) for obstacle in obstacles)
@@ -182,11 +196,21 @@ def plan_crossing(
 
     def yielding(poses: LegPoses, repairs: Repairs) -> Repairs | None:
         gaps = gaps_of(poses)
-        path = _yielding_path(poses, gaps, time[rows], steps, body, repairs)
+        path = _yielding_path(poses, gaps, time[looked], steps, body, repairs)
         return None if path is None else dataclasses.replace(repairs, path=path)
 
-    straightest = body.leg.lower[:, 3] + crossing.knee_margin
-    repairs = adapt(poses_of, gaps_of, yielding, straightest, crossing.max_repairs)
+    repairs = Repairs()
+    if len(looked):
+        repairs = adapt(
+            poses_of,
+            gaps_of,
+            yielding,
+            (
+                body.leg.lower[:, 3] + crossing.knee_margin,
+                body.leg.upper[:, 3] - crossing.fold_margin,
+            ),
+            crossing.max_repairs,
+        )
 
     moved, waist_height, factor = single_mass(repairs)
     errors = []
@@ -286,7 +310,7 @@ def _waist_height(
     walking: float,
     ground: float,
     repairs: Repairs,
-    end: float,
+    crossing: CrossingParams,
 ) -> Vector:
     """From walking height to Z_hds in phase 1 and back in phase 3 (Sec. III-C1)."""
     height = np.full(len(time), walking)
@@ -295,8 +319,10 @@ def _waist_height(
             continue
         low = ground + keys[step.obstacle].Z_hds - repairs.lowered - walking
         u = (time - step.lift) / (step.land - step.lift)
-        height += low * (third_order(u) if step.leads else -third_order(u))
-        if not step.leads and repairs.raised > 0.0:
+        # High while the foot is folded over the obstacle, low while the legs straddle.
+        down = third_order(1.0 + (u - 1.0) / crossing.waist_share)
+        height += low * (down if step.leads else -third_order(u / crossing.waist_share))
+        if repairs.raised > 0.0:
             middle = np.clip(u, 0.0, 1.0)
             height += repairs.raised * 16.0 * middle**2 * (1.0 - middle) ** 2
     return height
@@ -388,6 +414,17 @@ def _feet(
     return poses
 
 
+def _crossing_rows(
+    time: Vector, steps: tuple[TimedStep, ...]
+) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    """Which rows lie in phases 1 to 3 of a crossing, (n,)."""
+    inside = np.zeros(len(time), dtype=bool)
+    for step in steps:
+        if step.obstacle >= 0:
+            inside |= (time >= step.push) & (time <= step.land + 0.05)
+    return inside
+
+
 def _yielding_path(
     poses: LegPoses,
     gaps: Vector,
@@ -420,10 +457,7 @@ def _worst(
     error: Vector, time: Vector, steps: tuple[TimedStep, ...]
 ) -> tuple[float, float]:
     """Largest ZMP error from phase 1 to 3 of any crossing, x and y of W, m."""
-    inside = np.zeros(len(time), dtype=bool)
-    for step in steps:
-        if step.obstacle >= 0:
-            inside |= (time >= step.lift) & (time <= step.land)
+    inside = _crossing_rows(time, steps)
     if not inside.any():
         return 0.0, 0.0
     x, y = np.abs(error[inside]).max(axis=0)

@@ -19,6 +19,10 @@ class CrossingParams:
     """Phases 1 and 3, s (obstacle paper, Sec. V: 1.5)."""
     double_support: float = 0.20
     """Phase 2 and the double supports before and after, s (obstacle paper: 0.04)."""
+    waist_share: float = 0.6
+    """Share of phase 1, its last, in which the waist is lowered, and of phase 3, its
+    first, in which it is raised; the paper takes the whole phases, but a leg that is
+    folded over a high obstacle wants the waist high."""
     waist_yaw: float = 0.0
     """Turn of the waist in phase 2 towards the front foot's side, rad."""
     arm_swing: float = 0.0
@@ -27,16 +31,19 @@ class CrossingParams:
     """Forward pitch of the pelvis while crossing, rad."""
     sampling: float = 0.010
     """Of the whole-body motion that is planned, s; a multiple of the plan's period."""
-    filter_stages: int = 1
-    """How often the dynamic filter (CWTG2) is applied; the paper applies it once."""
+    filter_stages: int = 2
+    """How often the dynamic filter (CWTG2) is applied. The paper applies it once; the
+    second time takes most of what the first leaves (20 mm become 5 mm)."""
     least_gap: float = 0.033
     """Least distance of the legs to the obstacle as it was seen for a motion to be
     carried out, m: the paper's 3 cm and some millimetres of tracking error."""
     most_short: float = 0.003
     """Most that an ankle of the planned motion may be out of reach, m; the IK makes
     that up in height."""
-    knee_margin: float = 0.10
+    knee_margin: float = 0.25
     """How far the knees keep off their straightest, rad: nearer to it they race."""
+    fold_margin: float = 0.15
+    """How far the knees keep off their most bent, rad."""
     max_repairs: int = 12
     """Repairs of each kind that the feet adaptor tries."""
 
@@ -50,7 +57,7 @@ class CrossingParams:
         self.feet.validate()
         for name in ("single_support", "double_support", "sampling"):
             require_positive(name, getattr(self, name), "s")
-        for name in ("waist_yaw", "arm_swing", "lean", "knee_margin"):
+        for name in ("waist_yaw", "arm_swing", "lean", "knee_margin", "fold_margin"):
             require_at_least(name, getattr(self, name), 0.0)
         require_at_least("filter_stages", self.filter_stages, 0)
         require_at_least("max_repairs", self.max_repairs, 0)

@@ -33,7 +33,7 @@ class Repairs(Value):
     shift: float = 0.0
     """The second foot's way over the obstacle is moved to the rear by this, m."""
     raised: float = 0.0
-    """The waist is raised by this in phase 3, m."""
+    """The waist is raised by this in the middle of phases 1 and 3, m."""
     lowered: float = 0.0
     """The waist is lowered by this in phase 2, m, where a leg was out of reach."""
     path: Vector = field(default_factory=lambda: np.zeros(0))
@@ -88,7 +88,7 @@ def adapt(
     poses_of: Callable[[Repairs], LegPoses],
     gaps_of: Callable[[LegPoses], Vector],
     second: Callable[[LegPoses, Repairs], Repairs | None],
-    knee_margin: Vector,
+    knees: tuple[Vector, Vector],
     tries: int,
 ) -> Repairs:
     """Finds repairs after which nothing meets the inflated obstacles, if it can.
@@ -98,8 +98,8 @@ def adapt(
         gaps_of: distances of the legs to the inflated obstacles, (m, n, 2), m.
         second: the third repair: by Jacobians, from poses and the repairs so far; None
             where it changes nothing.
-        knee_margin: least knee angle of either leg, (2,), rad: below it the waist is
-            lowered.
+        knees: least and largest knee angle of either leg, (2,) each, rad: the waist is
+            lowered in phase 2 for the one and raised in phases 1 and 3 for the other.
         tries: how often each repair is tried.
 
     Returns:
@@ -108,9 +108,16 @@ def adapt(
     repairs = Repairs()
     poses = poses_of(repairs)
     for _ in range(tries):
-        if (poses.angles[:, :, 3].min(axis=0) >= knee_margin).all():
+        bent = poses.angles[:, :, 3]
+        stretched = bool((bent.min(axis=0) < knees[0]).any())
+        folded = bool((bent.max(axis=0) > knees[1]).any())
+        if not (stretched or folded):
             break
-        repairs = replace(repairs, lowered=repairs.lowered + RAISE)
+        repairs = replace(
+            repairs,
+            lowered=repairs.lowered + RAISE * stretched,
+            raised=repairs.raised + RAISE * folded,
+        )
         poses = poses_of(repairs)
     best, gap = repairs, _least(gaps_of(poses))
     if gap > 0.0:
