@@ -37,8 +37,9 @@ class StairLimits:
     """Largest width of a tread, m."""
     min_rise: float = 0.05
     """Least rise from a tread to the next, m."""
-    max_rise: float = 0.32
-    """Largest rise from a tread to the next, m: the paper climbs 0.24."""
+    max_rise: float = 0.50
+    """Largest rise from a tread to the next, m. Twice what the paper climbs (0.24), so
+    that a staircase too steep to climb is seen for what it is."""
     max_turn: float = 0.35
     """Most that the way to the next tread departs from a tread's own axis, rad."""
     depth_tolerance: float = 0.06

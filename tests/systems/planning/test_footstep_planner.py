@@ -16,7 +16,7 @@ from systems.planning.footstep_planner import FootstepPlanner, plan_footsteps
 from systems.ports import Vector, eval_abstract
 from systems.values import FootstepPlan, PlaneSegment, Staircase, other_foot
 
-PARAMS = FootstepPlannerParams()
+PARAMS = FootstepPlannerParams(foothold_bias=0.0)
 SOLE = Sole(heel=0.075, toe=0.150, half_width=0.042, ankle_height=0.1077)
 
 
@@ -227,7 +227,7 @@ def test_a_shallow_tread_costs_the_heel_its_margin_then_an_overhang() -> None:
         (0.235, 0.01, "planned"),
         (0.225, 0.01, "infeasible"),
     ):
-        params = FootstepPlannerParams(max_heel_overhang=overhang)
+        params = FootstepPlannerParams(foothold_bias=0.0, max_heel_overhang=overhang)
         stairs = staircase([run], [0.2])
         plan = plan_footsteps(stairs, *feet, params, SOLE)
         assert plan.status == status, (run, overhang)
@@ -273,7 +273,10 @@ def test_an_approach_ends_with_the_foot_that_does_not_lead() -> None:
     feet = feet_at(0.0, (0, 0, 0), -0.45, 0.0, 0.0)
     for lead in ("left", "right"):
         plan = plan_footsteps(
-            stairs, *feet, FootstepPlannerParams(lead_foot=lead), SOLE
+            stairs,
+            *feet,
+            FootstepPlannerParams(foothold_bias=0.0, lead_foot=lead),
+            SOLE,
         )
         first_up = next(step for step in plan.footsteps if step.plane == 0)
         assert first_up.foot == lead
