@@ -168,6 +168,39 @@ def replay(run_folder: RunArgument) -> None:
 
 
 @app.command()
+def render(
+    run_folder: RunArgument,
+    frames: Annotated[
+        int, typer.Option(metavar="N", min=1, help="How many pictures.")
+    ] = 12,
+    start: Annotated[
+        float | None,
+        typer.Option(
+            "--from",
+            metavar="S",
+            help="When the first is taken; by default when the robot first moves.",
+            show_default=False,
+        ),
+    ] = None,
+    end: Annotated[
+        float | None,
+        typer.Option(
+            "--to",
+            metavar="S",
+            help="When the last is taken; by default when the robot last moves.",
+            show_default=False,
+        ),
+    ] = None,
+) -> None:
+    """Render a run as a film strip, headless, into its folder `figures`."""
+    with _bad_input_in_one_line():
+        from diagrams.film_strip import render_run
+
+        _quiet_drake()
+        typer.echo(render_run(run_folder, frames, start, end))
+
+
+@app.command()
 def diagram(
     scenario: ScenarioArgument,
     out: Annotated[

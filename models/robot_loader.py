@@ -8,6 +8,7 @@ actuator with the URDF's effort limit and a servo.
 """
 
 import hashlib
+import json
 import os
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
@@ -34,7 +35,7 @@ from models.robot import RobotModel
 from systems.ports import Vector
 from systems.values import FEET
 
-CACHE_VERSION = "2"
+CACHE_VERSION = "3"
 _Z_UP_TO_Y_UP = np.array(
     [
         [1.0, 0.0, 0.0, 0.0],
@@ -221,7 +222,7 @@ def _convert(
     scene = trimesh.load_scene(_source(robot, visual))
     scene.apply_transform(_Z_UP_TO_Y_UP)  # type: ignore[no-untyped-call]
     files = export_gltf(scene, embed_buffers=True)  # type: ignore[no-untyped-call]
-    _write_atomically(visual_file, files["model.gltf"])
+    _write_atomically(visual_file, _opaque(files["model.gltf"]))
     mesh = _load(robot, visual)
     mesh.apply_transform(_origin(visual))
     vertices = np.asarray(mesh.vertices)
@@ -230,6 +231,20 @@ def _convert(
         vertices = np.vstack([vertices[vertices[:, 2] >= lowest], _cut(mesh, lowest)])
     hull = trimesh.convex.convex_hull(vertices)
     _write_atomically(hull_file, hull.export(file_type="obj").encode())
+
+
+def _opaque(gltf: bytes) -> bytes:
+    """The same glTF with opaque materials.
+
+    COLLADA's transparency is read as an alpha of 0 where it means that nothing is
+    transparent; Meshcat does not mind, VTK then draws nothing.
+    """
+    data = json.loads(gltf)
+    for material in data.get("materials", []):
+        factor = material.get("pbrMetallicRoughness", {}).get("baseColorFactor")
+        if factor is not None:
+            factor[3] = 1.0
+    return json.dumps(data).encode()
 
 
 def _cut(mesh: trimesh.Trimesh, height: float) -> Vector:

@@ -1,0 +1,159 @@
+"""The stair paper's Fig. 8 of a run: pictures in a row, rendered without a display."""
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from pydrake.geometry import (
+    ClippingRange,
+    ColorRenderCamera,
+    MakeRenderEngineVtk,
+    RenderCameraCore,
+    RenderEngineVtkParams,
+)
+from pydrake.math import RigidTransform, RotationMatrix
+from pydrake.multibody.plant import AddMultibodyPlantSceneGraph
+from pydrake.systems.framework import DiagramBuilder
+from pydrake.systems.sensors import CameraInfo
+
+from diagrams.evidence import STATE_SIGNAL
+from diagrams.signals import Run, RunError, load_run
+from models.robot_loader import add_robot
+from models.solids import add_solids
+from systems.ports import Vector
+
+STRIP_FILE = "figures/film_strip.png"
+WIDTH, HEIGHT = 320, 480
+"""Of a picture, pixels."""
+COLUMNS = 6
+VIEW = np.array([0.5, -2.1, 0.3])
+"""From the robot's base to the camera, m: from its right, a little from the front."""
+_ENGINE = "film"
+
+
+def render_run(
+    folder: Path, frames: int = 12, start: float | None = None, end: float | None = None
+) -> Path:
+    """Renders a run as a film strip into its folder; gives the picture's path.
+
+    Args:
+        folder: of the run.
+        frames: how many pictures.
+        start: when the first is taken, s; None for when the robot first moves.
+        end: when the last is taken, s; None for when it last moves.
+
+    Raises:
+        RunError: the folder holds no run, one without the plant's state, or nothing
+            between start and end.
+        ScenarioError: its scenario cannot be read.
+    """
+    run = load_run(folder)
+    if STATE_SIGNAL not in run.signals:
+        raise RunError(f"{folder}: the run did not log {STATE_SIGNAL}")
+    samples = run.signals[STATE_SIGNAL].to_numpy(dtype=np.float64)
+    time, state = samples[:, 0], samples[:, 1:]
+    first, last = _moving(run, time)
+    first = first if start is None else max(start, float(time[0]))
+    last = last if end is None else min(end, float(time[-1]))
+    if not first < last:
+        raise RunError(f"{folder}: nothing to render between {first:g} and {last:g} s")
+    moments = np.linspace(first, last, frames)
+    rows = np.minimum(np.searchsorted(time, moments), len(time) - 1)
+    pictures = render_states(run, state[rows])
+    path = folder / STRIP_FILE
+    path.parent.mkdir(exist_ok=True)
+    partial = path.with_suffix(".partial")
+    figure = strip_figure(pictures, moments - first)
+    FigureCanvasAgg(figure).print_png(str(partial))  # type: ignore[no-untyped-call]
+    return partial.replace(path)
+
+
+def render_states(run: Run, states: Vector) -> list[Vector]:
+    """A picture of the robot in its scene at each state, (height, width, 3) each.
+
+    Args:
+        run: its robot and scene.
+        states: positions, then velocities of the robot, (n, nq + nv).
+    """
+    scenario = run.scenario
+    builder = DiagramBuilder()
+    plant, scene_graph = AddMultibodyPlantSceneGraph(builder, time_step=0.0)
+    solids = scenario.scene.solids()
+    add_solids(
+        plant,
+        (
+            solid
+            for solid in solids
+            if not solid.name.startswith("room/") or solid.name == "room/floor"
+        ),
+    )
+    robot = scenario.robot.model()
+    instance = add_robot(plant, scene_graph, robot)
+    plant.Finalize()
+    scene_graph.AddRenderer(_ENGINE, MakeRenderEngineVtk(RenderEngineVtkParams()))
+    diagram = builder.Build()
+    context = diagram.CreateDefaultContext()
+    plant_context = plant.GetMyMutableContextFromRoot(context)
+    query = scene_graph.get_query_output_port()
+    scene_context = scene_graph.GetMyContextFromRoot(context)
+    camera = ColorRenderCamera(
+        RenderCameraCore(
+            _ENGINE,
+            CameraInfo(WIDTH, HEIGHT, np.deg2rad(50.0)),
+            ClippingRange(0.05, 20.0),
+            RigidTransform(),
+        ),
+        False,
+    )
+    base = plant.GetBodyByName(robot.base_body, instance)
+    positions = plant.num_positions(instance)
+    pictures = []
+    for row in states:
+        q: Vector = row[:positions]
+        plant.SetPositions(plant_context, instance, q)
+        p_WBase = base.EvalPoseInWorld(plant_context).translation()
+        image = query.Eval(scene_context).RenderColorImage(
+            camera, scene_graph.world_frame_id(), look_at(p_WBase + VIEW, p_WBase)
+        )
+        pictures.append(np.array(image.data)[:, :, :3])
+    return pictures
+
+
+def look_at(p_WCamera: Vector, p_WTarget: Vector) -> RigidTransform:
+    """Pose of a camera (x right, y down, z ahead) that looks at a point, upright."""
+    ahead = (p_WTarget - p_WCamera) / np.linalg.norm(p_WTarget - p_WCamera)
+    right = np.cross(ahead, [0.0, 0.0, 1.0])
+    right /= np.linalg.norm(right)
+    R: Vector = np.column_stack([right, np.cross(ahead, right), ahead])
+    return RigidTransform(RotationMatrix(R), p_WCamera)
+
+
+def strip_figure(pictures: list[Vector], moments: Vector) -> Figure:
+    """Pictures in rows with their time stamps, s, below them."""
+    columns = min(COLUMNS, len(pictures))
+    rows = -(-len(pictures) // columns)
+    figure = Figure(figsize=(1.9 * columns, 3.1 * rows), dpi=120, layout="constrained")
+    axes = figure.subplots(rows, columns, squeeze=False)
+    for ax in axes.flat:
+        ax.set_axis_off()
+    for ax, picture, moment in zip(axes.flat, pictures, moments, strict=False):
+        ax.imshow(picture)
+        ax.set_title(f"{moment:.1f}", y=-0.09, fontsize=10)
+    return figure
+
+
+def _moving(run: Run, time: Vector) -> tuple[float, float]:
+    """When the robot first began and last ended to move, as its executive says."""
+    if "executive.status" not in run.value_names:
+        return float(time[0]), float(time[-1])
+    entries = run.values("executive.status")
+    ends = [*(moment for moment, _ in entries[1:]), float(time[-1])]
+    moves = [
+        (moment, end)
+        for (moment, status), end in zip(entries, ends, strict=True)
+        if status.get("activity") in ("move", "walk")
+    ]
+    if not moves:
+        return float(time[0]), float(time[-1])
+    return moves[0][0], moves[-1][1]
