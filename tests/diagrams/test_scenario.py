@@ -128,7 +128,7 @@ def test_one_seed_rules_the_scanner() -> None:
         ("robot.x=20", "robot: must start inside the room, got x 20 m, y 0 m"),
         (
             "task.kind=fly",
-            "task.kind: must be one of stair_climbing, room_crossing, got 'fly'",
+            "task.kind: must be one of stair_climbing, room_crossing, obstacle_crossing",
         ),
         ("task.mode=fast", "task.mode: must be one of dynamic, quasi_static, got 'fast'"),
         ("task.steps_between_scans=0", "task.steps_between_scans: must be at least 1"),
