@@ -210,7 +210,7 @@ class Stabilizer(LeafSystem):
         acceleration = self._command(context).com_acceleration
         force = self._mass * (acceleration + np.array([0.0, 0.0, GRAVITY]))
         contacts = eval_vector(self._contacts, context)
-        wrenches, _ = distribute_wrench(
+        wrenches, solved = distribute_wrench(
             np.concatenate([force, eval_vector(self._momentum_rate, context)]),
             eval_vector(self._com, context),
             eval_vector(self._feet, context)[:12].reshape(2, 6),
