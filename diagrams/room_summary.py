@@ -20,6 +20,9 @@ STAGES = {
     "xml": "environment_exchange",
 }
 """The system behind each stage of perception."""
+CENTER_TOLERANCE, SIZE_TOLERANCE = 0.03, 0.05
+"""A box whose centre or a side is off by more counts as off, m. It may be that the
+robot hides a part of it."""
 MOVED_AT_MOST = 0.2
 """For so long after a box has come to rest a look may still show it moving, s."""
 
@@ -38,9 +41,10 @@ def room_perception(
 
     Returns:
         `frames`; `ms_per_frame`; `floor_inlier_share`, the mean; `errors`, None where
-        no box stood in the room: over all boxes of all frames how many were to be seen
-        and how many were not, and the mean and largest error of the centre (distance)
-        and of the size (the worst side), m. A box while it moves does not count.
+        no box stood in the room: over all boxes of all frames how many were to be seen,
+        how many were not and how many were off, and the mean and largest error of the
+        centre (distance) and of the size (the worst side), m. A box while it moves does
+        not count.
     """
     if not environments:
         return None
@@ -144,6 +148,8 @@ def _error_summary(
     summary: dict[str, Json] = {"boxes": len(errors) + unseen, "unseen": unseen}
     if errors:
         columns = np.array(errors).T
+        off = (columns[0] > CENTER_TOLERANCE) | (columns[1] > SIZE_TOLERANCE)
+        summary["off"] = int(off.sum())
         for name, column in zip(("center_m", "size_m"), columns, strict=True):
             summary[f"mean_{name}"] = round(float(column.mean()), 5)
             summary[f"max_{name}"] = round(float(column.max()), 5)

@@ -63,7 +63,7 @@ def test_a_run_is_summed_up() -> None:
     """Over all boxes of all frames; what was missed is counted."""
     looks = [
         (0.5, Environment(FLOOR, (seen(0.01), WALL))),
-        (1.0, Environment(FLOOR, (seen(0.03, 0.02),))),
+        (1.0, Environment(FLOOR, (seen(0.031, 0.02),))),
         (1.5, Environment(reason="no floor in view")),
     ]
     data = room_perception(looks, SceneParams(boxes=[BIN]), TIMES)
@@ -74,8 +74,9 @@ def test_a_run_is_summed_up() -> None:
     assert data["errors"] == {
         "boxes": 3,
         "unseen": 1,
-        "mean_center_m": pytest.approx(0.02),
-        "max_center_m": pytest.approx(0.03),
+        "off": 1,
+        "mean_center_m": pytest.approx(0.0205),
+        "max_center_m": pytest.approx(0.031),
         "mean_size_m": pytest.approx(0.01),
         "max_size_m": pytest.approx(0.02),
     }
