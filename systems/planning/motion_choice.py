@@ -116,6 +116,16 @@ def violation(
                 f"more than {choice.reach_tolerance:.3f} m",
             )
         )
+    stray = float(prediction.stray.max())
+    if stray > choice.posture_tolerance:
+        when = prediction.time[int(prediction.stray.argmax())]
+        found.append(
+            (
+                stray / choice.posture_tolerance,
+                f"reach: the upper body would have to stray {stray:.2f} rad from its "
+                f"posture at {when:.1f} s, more than {choice.posture_tolerance:g} rad",
+            )
+        )
     gap, limb, when = prediction.worst_gap()
     if gap < choice.limb_clearance:
         found.append(
@@ -160,12 +170,13 @@ def _quasi_static(
     robot: RobotModel,
 ) -> Iterator[MotionPlan]:
     choice = params.choice
-    for forward, height, lean in product(
+    for toe_off, forward, height, lean in product(
+        choice.quasi_static_toe_offs,
         choice.quasi_static_forwards,
         choice.quasi_static_heights,
         choice.quasi_static_leans,
     ):
-        climb = Climb(lean, choice.quasi_static_toe_off, height, forward)
+        climb = Climb(lean, toe_off, height, forward)
         segments = plan_segments(
             task.feet, task.com, task.footsteps, climb, params, robot
         )

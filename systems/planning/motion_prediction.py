@@ -55,6 +55,9 @@ class MotionPrediction:
     """Distance by which the worse sole misses its pose, (n,), m."""
     com_error: Vector
     """Horizontal distance by which the CoM misses its place, (n,), m."""
+    stray: Vector
+    """How far the joint above the legs that strays most is from its posture, (n,),
+    rad: arms that are flung up make up for legs that are too short."""
     gaps: Vector
     """Least distance of each limb to the edges, (n, b), m; negative where it runs
     into a step; inf without edges."""
@@ -119,6 +122,13 @@ class MotionPredictor:
         self._rows = np.array([item.joint().velocity_start() for item in actuators])
         legs = {name for leg in robot.leg_joints.values() for name in leg}
         self._legs = np.array([name in legs for name in self._joints])
+        self._upper = np.array(
+            [
+                item.joint().position_start()
+                for item in actuators
+                if item.joint().name() not in legs
+            ]
+        )
         self._effort = np.array([item.effort_limit() for item in actuators])
         self._mass = plant.CalcTotalMass(plant.CreateDefaultContext())
         feet = set(robot.foot_bodies.values())
@@ -166,12 +176,14 @@ class MotionPredictor:
         v: Vector = np.zeros(plant.num_velocities())
         torques = np.zeros((len(rows), len(self._joints)))
         foot_error, com_error = np.zeros(len(rows)), np.zeros(len(rows))
+        stray = np.zeros(len(rows))
         gaps = np.full((len(rows), len(self._limbs)), np.inf)
         for k, row in enumerate(rows):
             plant.SetPositions(context, q)
             plant.SetVelocities(context, v)
             before = v
             foot_error[k], com_error[k] = self._errors(context, plan, row)
+            stray[k] = np.abs(q - self._ik.posture)[self._upper].max()
             if len(edges):
                 gaps[k] = self._gaps(context, edges, yaw)
             v, _ = self._ik.solve(context, self._target(plan, row, stride))
@@ -184,6 +196,7 @@ class MotionPredictor:
             effort_limits=self._effort,
             foot_error=foot_error,
             com_error=com_error,
+            stray=stray,
             gaps=gaps,
             limbs=tuple(body.name() for body, _ in self._limbs),
         )
