@@ -117,7 +117,9 @@ def plan_crossing(
     steps, end = time_steps(feet, footsteps, walking, crossing)
     n = round(end / walking.period) + 1
     time: Vector = np.arange(n, dtype=np.float64) * walking.period
-    zmp = zmp_reference(time, steps, feet, com, end, walking)
+    zmp = zmp_reference(
+        time, steps, feet, com, end, walking, crossing.zmp_forward, crossing.zmp_rolling
+    )
     stride = max(1, round(crossing.sampling / walking.period))
     rows = np.arange(0, n, stride)
     ground = float(feet[:, 2].mean())
@@ -199,6 +201,7 @@ def plan_crossing(
         path = _yielding_path(poses, gaps, time[looked], steps, body, repairs)
         return None if path is None else dataclasses.replace(repairs, path=path)
 
+    straight = body.leg.lower[:, 3] + crossing.knee_margin
     repairs = Repairs()
     if len(looked):
         repairs = adapt(
@@ -206,9 +209,13 @@ def plan_crossing(
             gaps_of,
             yielding,
             (
-                body.leg.lower[:, 3] + crossing.knee_margin,
+                straight,
                 body.leg.upper[:, 3] - crossing.fold_margin,
             ),
+            ground
+            + body.leg.sole.ankle_height
+            + body.leg.hip_to_ankle(float(straight.max()))
+            - start_waist[2],
             crossing.max_repairs,
         )
 

@@ -19,6 +19,12 @@ class CrossingParams:
     """Phases 1 and 3, s (obstacle paper, Sec. V: 1.5)."""
     double_support: float = 0.20
     """Phase 2 and the double supports before and after, s (obstacle paper: 0.04)."""
+    zmp_forward: float = 0.04
+    """ZMP ahead of the stance ankle in phases 1 and 3, m: nearer to the bent knee,
+    which has less to carry."""
+    zmp_rolling: float = 0.05
+    """How far the ZMP moves on towards the toes in phase 1, m: the waist is then
+    farther ahead when the first foot lands, and the rear knee has less to carry."""
     waist_share: float = 0.6
     """Share of phase 1, its last, in which the waist is lowered, and of phase 3, its
     first, in which it is raised; the paper takes the whole phases, but a leg that is
@@ -42,7 +48,7 @@ class CrossingParams:
     that up in height."""
     knee_margin: float = 0.25
     """How far the knees keep off their straightest, rad: nearer to it they race."""
-    fold_margin: float = 0.15
+    fold_margin: float = 0.06
     """How far the knees keep off their most bent, rad."""
     max_repairs: int = 12
     """Repairs of each kind that the feet adaptor tries."""
@@ -57,7 +63,14 @@ class CrossingParams:
         self.feet.validate()
         for name in ("single_support", "double_support", "sampling"):
             require_positive(name, getattr(self, name), "s")
-        for name in ("waist_yaw", "arm_swing", "lean", "knee_margin", "fold_margin"):
+        for name in (
+            "zmp_forward",
+            "waist_yaw",
+            "arm_swing",
+            "lean",
+            "knee_margin",
+            "fold_margin",
+        ):
             require_at_least(name, getattr(self, name), 0.0)
         require_at_least("filter_stages", self.filter_stages, 0)
         require_at_least("max_repairs", self.max_repairs, 0)

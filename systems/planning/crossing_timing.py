@@ -107,6 +107,8 @@ def zmp_reference(
     com: Vector,
     end: float,
     params: MotionPlannerParams,
+    forward: float,
+    rolling: float,
 ) -> Vector:
     """ZMP_des(t): rests on the stance foot, moves over in double support, (n, 3), m."""
     final = feet.copy()
@@ -116,10 +118,14 @@ def zmp_reference(
     first[:2] = com[:2]
     keys = [(0.0, first), (0.3 * params.lead_in, first)]
     for step in steps:
-        point = stance_zmp(
-            step.stance, other_foot(step.foot), params.zmp_forward, params
-        )
-        keys += [(step.lift, point), (step.land, point)]
+        ahead = forward if step.obstacle >= 0 else params.zmp_forward
+        point = stance_zmp(step.stance, other_foot(step.foot), ahead, params)
+        keys.append((step.lift, point))
+        if step.leads:
+            point = stance_zmp(
+                step.stance, other_foot(step.foot), ahead + rolling, params
+            )
+        keys.append((step.land, point))
     keys.append((end - 0.4 * params.lead_out, middle_zmp(final, params)))
     times = [key[0] for key in keys]
     points = np.array([key[1] for key in keys])

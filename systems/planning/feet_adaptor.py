@@ -89,6 +89,7 @@ def adapt(
     gaps_of: Callable[[LegPoses], Vector],
     second: Callable[[LegPoses, Repairs], Repairs | None],
     knees: tuple[Vector, Vector],
+    room: float,
     tries: int,
 ) -> Repairs:
     """Finds repairs after which nothing meets the inflated obstacles, if it can.
@@ -100,6 +101,7 @@ def adapt(
             where it changes nothing.
         knees: least and largest knee angle of either leg, (2,) each, rad: the waist is
             lowered in phase 2 for the one and raised in phases 1 and 3 for the other.
+        room: how far the waist can be raised over a straight stance leg, m.
         tries: how often each repair is tried.
 
     Returns:
@@ -111,6 +113,7 @@ def adapt(
         bent = poses.angles[:, :, 3]
         stretched = bool((bent.min(axis=0) < knees[0]).any())
         folded = bool((bent.max(axis=0) > knees[1]).any())
+        folded &= repairs.raised + RAISE <= room
         if not (stretched or folded):
             break
         repairs = replace(
@@ -124,7 +127,9 @@ def adapt(
         return best
     for change in (
         lambda r: replace(r, shift=r.shift + SHIFT),
-        lambda r: replace(r, raised=r.raised + RAISE),
+        lambda r: (
+            replace(r, raised=r.raised + RAISE) if r.raised + RAISE <= room else None
+        ),
         lambda r: second(poses_of(r), r),
     ):
         for _ in range(tries):

@@ -40,6 +40,9 @@ class FootTrajectoryParams:
     trail_pitch: float = 0.45
     """Pitch of the second foot while it rises, rad; positive lifts the heel."""
 
+    over_share: float = 0.6
+    """Share of that pitch that is left in the middle over the obstacle."""
+
     def validate(self) -> None:
         """Checks every field.
 
@@ -169,7 +172,7 @@ def _crossing_knots(
     """Up behind the obstacle, over it, down beyond it, without speed at the ground."""
     top = crossing.inflated.height + params.apex
     first = params.lead_pitch if crossing.leads else params.trail_pitch
-    over = 0.0 if crossing.leads else 0.4 * params.trail_pitch
+    over = params.over_share * first
     heights = [
         top + sole_height(outline, ankle_height, pitch) for pitch in (first, over)
     ]
