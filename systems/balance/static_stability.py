@@ -5,26 +5,25 @@ from typing import Any
 
 import numpy as np
 from pydrake.common.value import AbstractValue
-from pydrake.math import RigidTransform, RollPitchYaw, RotationMatrix
+from pydrake.math import RigidTransform
 from pydrake.systems.framework import BasicVector, Context, LeafSystem, State
 
+from models.robot import Sole
 from systems.balance.contact_wrench_cone import Contact, sole_contact
 from systems.balance.convex_polygon import signed_margin
+from systems.balance.sole_contacts import carrying_contact, moved_by
 from systems.balance.stability_polygon import StabilityPolygon, static_polygon
-from systems.ports import Vector, eval_abstract, eval_vector, set_vector
+from systems.ports import eval_abstract, eval_vector, set_vector
 from systems.timing import timed
 from systems.values import StancePolygon, Value
-
-LIFTED = 1e-6
-"""A sole that carries on this much less than its length has its heel lifted, m."""
 
 
 @dataclass(frozen=True, eq=False)
 class _Stance(Value):
     """The stance that the polygon belongs to."""
 
-    sole_poses: Vector = field(default_factory=lambda: np.zeros(12))
-    contacts: Vector = field(default_factory=lambda: np.full(4, np.nan))
+    looked: bool = False
+    soles: tuple[Contact, ...] = ()
     others: tuple[Contact, ...] = ()
     polygon: StabilityPolygon = field(
         default_factory=lambda: StabilityPolygon(status="no_contact")
@@ -83,7 +82,7 @@ class StaticStability(LeafSystem):
             half_width: half the sole's width, m.
             friction: mu of the four-sided pyramid.
             period: how often the stance is looked at, s.
-            tolerance: how far a sole may move, m, or turn, rad, unheeded.
+            tolerance: how far a corner of a contact may move unheeded, m.
 
         Raises:
             ValueError: a length or the friction is negative, period not positive.
@@ -93,9 +92,9 @@ class StaticStability(LeafSystem):
             raise ValueError(f"period: must be positive, got {period} s")
         if not tolerance >= 0.0:
             raise ValueError(f"tolerance: must not be negative, got {tolerance}")
-        self._sole = (heel, toe, half_width, friction)
-        self._tolerance = tolerance
-        sole_contact(RigidTransform(), *self._sole)  # refuses a bad sole now
+        self._sole = Sole(heel, toe, half_width, ankle_height=0.0)
+        self._friction, self._tolerance = friction, tolerance
+        sole_contact(RigidTransform(), heel, toe, half_width, friction)  # refuses now
 
         self._sole_poses = self.DeclareVectorInputPort("sole_poses", 12)
         self._contacts = self.DeclareVectorInputPort("contacts", 4)
@@ -154,51 +153,26 @@ class StaticStability(LeafSystem):
         held = self._held(context)
         poses = eval_vector(self._sole_poses, context)
         contacts = eval_vector(self._contacts, context)
-        contacts[:2] = contacts[:2] > 0.5
         others: tuple[Contact, ...] = ()
         if self._other_contacts.HasValue(context):
             others = eval_abstract(self._other_contacts, context, tuple)
-        standing = np.repeat(contacts[:2] > 0.5, 6)
-        if (
-            np.array_equal(contacts, held.contacts)
-            and others == held.others
-            and np.abs(_moved(poses, held.sole_poses)[standing]).max(initial=0.0)
-            <= self._tolerance
-        ):
-            return
-        soles = [
-            self._contact(pose, length)
+        soles = tuple(
+            carrying_contact(pose, length, self._sole, self._friction)
             for pose, stands, length in zip(
-                poses.reshape(2, 6), contacts[:2], contacts[2:], strict=True
+                poses.reshape(2, 6), contacts[:2] > 0.5, contacts[2:], strict=True
             )
             if stands
-        ]
+        )
+        if held.looked and others == held.others and self._same(soles, held.soles):
+            return
         polygon = static_polygon([*soles, *others])
         state.get_mutable_abstract_state(int(self._stance)).set_value(
-            _Stance(poses, contacts, others, polygon, held.caught + polygon.caught)
+            _Stance(True, soles, others, polygon, held.caught + polygon.caught)
         )
 
-    def _contact(self, pose: Vector, length: float) -> Contact:
-        """The part of a sole that carries."""
-        heel, toe, half_width, friction = self._sole
-        X_WF = _pose(pose)
-        if length >= heel + toe - LIFTED:
-            return sole_contact(X_WF, heel, toe, half_width, friction)
-        p_FE: Vector = np.array([toe, 0.0, 0.0])
-        p_WE: Vector = np.asarray(X_WF.multiply(p_FE))
-        X_WE = RigidTransform(RotationMatrix.MakeZRotation(pose[5]), p_WE)
-        return sole_contact(X_WE, length, 0.0, half_width, friction)
-
-
-def _pose(pose: Vector) -> RigidTransform:
-    """The pose with x, y, z, roll, pitch, yaw, (6,)."""
-    position: Vector = pose[:3]
-    angles: Vector = pose[3:]
-    return RigidTransform(RollPitchYaw(angles), position)
-
-
-def _moved(poses: Vector, before: Vector) -> Vector:
-    """Change of both soles' poses, (12,), m and rad; angles the short way round."""
-    change = (poses - before).reshape(2, 6)
-    change[:, 3:] = np.remainder(change[:, 3:] + np.pi, 2.0 * np.pi) - np.pi
-    return change.ravel()
+    def _same(self, soles: tuple[Contact, ...], before: tuple[Contact, ...]) -> bool:
+        """Whether no sole came, went or moved; lifted toes stay as the heel rises."""
+        return len(soles) == len(before) and all(
+            moved_by(a, b) <= self._tolerance
+            for a, b in zip(soles, before, strict=True)
+        )

@@ -6,11 +6,13 @@ from pydrake.math import RigidTransform, RollPitchYaw
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import Context
 
+from models.robot import Sole
 from systems.balance import static_stability
 from systems.balance.contact_wrench_cone import point_contact, sole_contact
 from systems.balance.convex_polygon import hausdorff_distance, signed_margin
 from systems.balance.stability_polygon import StabilityPolygon, static_polygon
 from systems.balance.static_stability import StaticStability
+from systems.planning.toe_off import lift_heel
 
 SOLE = {"heel": 0.1, "toe": 0.14, "half_width": 0.07, "friction": 0.7}
 POSES = np.array([0, 0.1, 0, 0, 0, 0.1, 0.25, -0.1, 0.2, 0, 0.2, 0.0])
@@ -74,7 +76,7 @@ def test_it_computes_only_when_the_stance_changes(
     simulator.AdvanceTo(0.1)
     assert calls == [2]
     system.GetInputPort("com").FixValue(context, [0.3, 0.0, 0.8])
-    poses = POSES + 0.0009
+    poses = POSES + 0.0004
     poses[5] += 2.0 * np.pi
     system.GetInputPort("sole_poses").FixValue(context, poses)
     simulator.AdvanceTo(0.2)
@@ -128,3 +130,20 @@ def test_a_lifted_heel_leaves_the_toes() -> None:
     assert polygon.status == "ok"
     np.testing.assert_allclose(polygon.vertices[:, 0].max(), edge, atol=1e-9)
     np.testing.assert_allclose(polygon.vertices[:, 0].min(), edge - 0.01, atol=1e-9)
+
+
+def test_a_heel_that_rises_over_resting_toes_changes_nothing(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The pose changes at every look, the strip that carries does not."""
+    system, context = at_rest((1.0, 1.0))
+    calls = count_calls(monkeypatch)
+    sole = Sole(0.1, 0.14, 0.07, 0.1)
+    simulator = Simulator(system, context)
+    system.GetInputPort("contacts").FixValue(context, [1.0, 1.0, 0.01, 0.24])
+    poses = POSES.copy()
+    for pitch in (0.0, 0.1, 0.2, 0.4, 0.7):
+        poses[:6] = lift_heel(POSES[:6], np.array([pitch]), sole)[0]
+        system.GetInputPort("sole_poses").FixValue(context, poses)
+        simulator.AdvanceTo(context.get_time() + 0.05)
+    assert calls == [2]
