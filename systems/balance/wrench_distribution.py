@@ -177,5 +177,5 @@ def distribute_wrench(
         force = rotations[k] @ solution[6 * k : 6 * k + 3]
         moment = rotations[k] @ solution[6 * k + 3 : 6 * k + 6]
         wrenches[i, :3] = force
-        wrenches[i, 3:] = moment + np.cross(arms[k], force)
+        wrenches[i, 3:] = moment + _cross_matrix(arms[k]) @ force
     return wrenches, True

@@ -31,17 +31,22 @@ def sum_wrenches(
         Force, then moment about F, in F, a row a foot, (feet, 6), N and Nm.
     """
     wrenches = np.zeros((len(feet), 6))
+    forces: list[list[Vector]] = [[] for _ in feet]
+    points: list[list[Vector]] = [[] for _ in feet]
     for i in range(results.num_point_pair_contacts()):
         contact = results.point_pair_contact_info(i)
         # contact_force is the force on body B.
         for body, sign in ((contact.bodyA_index(), -1.0), (contact.bodyB_index(), 1.0)):
-            if body not in feet:
-                continue
-            k = feet.index(body)
-            force = sign * np.asarray(contact.contact_force())
-            arm = np.asarray(contact.contact_point()) - X_WF[k].translation()
-            wrenches[k, :3] += force
-            wrenches[k, 3:] += np.cross(arm, force)
+            if body in feet:
+                k = feet.index(body)
+                forces[k].append(sign * np.asarray(contact.contact_force()))
+                points[k].append(np.asarray(contact.contact_point()))
+    for k, X in enumerate(X_WF):
+        if forces[k]:
+            force = np.array(forces[k])
+            arm = np.array(points[k]) - X.translation()
+            wrenches[k, :3] = force.sum(axis=0)
+            wrenches[k, 3:] = np.cross(arm, force).sum(axis=0)
     for wrench, X in zip(wrenches, X_WF, strict=True):
         R_FW = X.rotation().matrix().T
         wrench[:3] = R_FW @ wrench[:3]
