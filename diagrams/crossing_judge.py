@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -68,7 +69,7 @@ def measure_crossing(
         p_B = np.array(box.X_WB.inverse().multiply(p_W.T)).T
         axis = int(np.argmin(box.size[:2]))
         intervals = contact_intervals(forces[foot], weight)
-        for before, after in zip(intervals[:-1], intervals[1:], strict=True):
+        for before, after in pairwise(intervals):
             start, end = before.end - 1, after.start
             if p_B[start, axis] * p_B[end, axis] < 0.0:
                 lifts.append(float(motion.time[start]))

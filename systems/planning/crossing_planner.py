@@ -112,10 +112,11 @@ class CrossingPlanner(LeafSystem):
             ("motion_plan", standing, lambda plan: plan.motion),
         )
         for name, model, part in parts:
+            calc: Callable[..., None] = self._part(part)
             self.DeclareAbstractOutputPort(
                 name,
                 lambda model=model: AbstractValue.Make(model),
-                self._part(part),
+                calc,
                 prerequisites_of_calc={self._plan.ticket()},
             )
 

@@ -66,7 +66,7 @@ def feasibility_maps(
     over = np.linspace(-sole.heel, sole.toe, samples)
 
     def exists(waist: Vector) -> Vector:
-        """Whether one of the waist's places (n, k), m, and of the obstacle's will do."""
+        """Whether one of the places of the waist (n, k), m, and obstacle will do."""
         X, Z, _, share = np.meshgrid(
             X_ads, Z_hds, np.arange(waist.shape[1]), SHARES, indexing="ij"
         )

@@ -75,7 +75,8 @@ class Checked(NamedTuple):
     """Eq. 1: by how much each joint of either leg exceeds its limits, (n, 6), rad;
     not positive where it does not."""
     gap: Vector
-    """Eq. 5: distance of the legs to the obstacle, (n,), m."""
+    """Eq. 5: distance of the legs to the obstacle, (n,), m: below the knee their
+    outline, above it the line to the hip."""
 
 
 def check_double_support(
@@ -110,10 +111,13 @@ def check_double_support(
         reached = np.where(found.short > 0.0, 0.0, reached)
         beyond = np.maximum(found.angles - leg.upper[i], leg.lower[i] - found.angles)
         limits = np.maximum(limits, beyond)
-        points, _ = outline_points(leg, foot, found.angles, sole)
-        planar = points[:, :, [0, 2]].copy()
-        planar[:, :, 0] -= front[:, None]
-        gap = np.minimum(gap, outline_gap(planar, section))
+        points, knee = outline_points(leg, foot, found.angles, sole)
+        hip = np.column_stack([X_hds, np.zeros(n), Z_hds])
+        thigh = np.stack([knee, hip], axis=1)
+        for line in (points, thigh):
+            planar = line[:, :, [0, 2]].copy()
+            planar[:, :, 0] -= front[:, None]
+            gap = np.minimum(gap, outline_gap(planar, section))
     return Checked(reached, limits, gap)
 
 

@@ -1,0 +1,83 @@
+"""The robot, obstacles and footsteps that several tests of crossings plan with."""
+
+from functools import cache
+
+import numpy as np
+from pydrake.math import RigidTransform
+from pydrake.systems.framework import Context
+
+from diagrams.obstacle_crossing import planning_body
+from diagrams.station import robot_alone
+from models.jvrc1 import JVRC1
+from systems.balance.zmp_preview import ZmpPreviewParams
+from systems.obstacle_values import KeyConfiguration, Obstacle
+from systems.planning.crossing_motion import CrossingMotion, plan_crossing
+from systems.planning.crossing_params import CrossingParams
+from systems.planning.feasibility_unit import feasibility_unit
+from systems.planning.leg_clearance import Section
+from systems.planning.motion_params import MotionPlannerParams
+from systems.planning.whole_body_plan import WholeBody
+from systems.ports import Vector
+from systems.values import Foot, Footstep
+
+WAIST = 0.79
+"""Height of the hips in walking, m."""
+
+
+@cache
+def body() -> WholeBody:
+    """JVRC-1 as plans are made with it."""
+    return planning_body(JVRC1, robot_alone(JVRC1))
+
+
+def scratch() -> Context:
+    """A context of the body's plant."""
+    return body().plant.CreateDefaultContext()
+
+
+def key_of(section: Section, params: CrossingParams) -> KeyConfiguration:
+    """The key configuration of an obstacle that can be straddled."""
+    answer = feasibility_unit(section, WAIST, body().leg, params.feasibility)
+    assert answer.key is not None, answer.constraint
+    return answer.key
+
+
+def footstep(foot: Foot, x: float, plane: int = -1) -> Footstep:
+    """A level footstep beside the x axis."""
+    p: Vector = np.array([x, 0.095 if foot == "left" else -0.095, 0.0])
+    return Footstep(foot=foot, X_WF=RigidTransform(p), plane=plane)
+
+
+def planned(
+    width: float, height: float, params: CrossingParams | None = None
+) -> tuple[CrossingMotion, Obstacle]:
+    """A motion of five steps over an obstacle, and the obstacle."""
+    params = params or CrossingParams()
+    key = key_of(Section(width, height), params)
+    centre: Vector = np.array([0.2 + key.front + width / 2.0, 0.0])
+    obstacle = Obstacle(centre, 0.0, width, height, 1.0)
+    beyond = 0.2 + key.X_ads
+    steps = (
+        footstep("left", 0.2),
+        footstep("right", 0.2),
+        footstep("left", beyond, 0),
+        footstep("right", beyond, 0),
+        footstep("left", beyond + 0.1),
+        footstep("right", beyond + 0.1),
+    )
+    feet: Vector = np.zeros((2, 6))
+    feet[:, 1] = [0.095, -0.095]
+    com: Vector = np.array([0.035, 0.0, 0.83])
+    motion = plan_crossing(
+        feet,
+        com,
+        steps,
+        (obstacle,),
+        (key,),
+        MotionPlannerParams(com_height=0.83),
+        params,
+        ZmpPreviewParams(com_height=0.85),
+        body(),
+        scratch(),
+    )
+    return motion, obstacle

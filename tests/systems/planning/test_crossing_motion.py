@@ -1,0 +1,72 @@
+"""Algorithm 1 as a whole, without physics."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from systems.planning.crossing_motion import CrossingMotion
+from systems.planning.crossing_params import CrossingParams
+from systems.planning.feet_adaptor import ankle_displacement
+from systems.planning.foot_trajectory_generator import FootTrajectoryParams
+from systems.planning.leg_model import LegModel
+from tests.systems.planning.crossing_cases import body, planned
+
+
+@pytest.fixture(scope="module")
+def motion() -> CrossingMotion:
+    """Over 15 x 5 cm."""
+    return planned(0.05, 0.15)[0]
+
+
+def test_margins_and_reach(motion: CrossingMotion) -> None:
+    """The legs keep more than 3 cm off the obstacle and reach their feet."""
+    assert motion.report.gap > 0.035
+    assert motion.report.short == 0.0
+
+
+def test_the_filter_brings_the_zmp_five_times_nearer(motion: CrossingMotion) -> None:
+    """CWTG2 against CWTG1, along and across."""
+    before, after = motion.report.zmp_error_before, motion.report.zmp_error_after
+    assert after[0] < before[0] / 5.0
+    assert after[1] < before[1] / 5.0
+
+
+def test_the_phases_take_less_than_four_seconds(motion: CrossingMotion) -> None:
+    """1 to 3, as the paper counts."""
+    ((begin, end),) = motion.report.phases
+    assert 0.0 < end - begin < 4.0
+    assert end < motion.duration
+
+
+def test_the_motion_is_smooth_and_ends_at_rest(motion: CrossingMotion) -> None:
+    """No jump of CoM or feet."""
+    assert np.abs(np.diff(motion.com, axis=0)).max() < 0.01
+    assert np.abs(np.diff(motion.foot_poses, axis=0)).max() < 0.03
+    assert np.abs(motion.com_velocity[[0, -1]]).max() < 0.01
+    rate = np.gradient(motion.com, motion.period, axis=0)
+    np.testing.assert_allclose(rate[5:-5], motion.com_velocity[5:-5], atol=0.02)
+
+
+def test_the_adaptor_repairs_what_the_key_configuration_leaves() -> None:
+    """A high obstacle: without repairs the second leg comes nearer."""
+    params = CrossingParams(
+        single_support=1.5,
+        double_support=0.14,
+        feet=FootTrajectoryParams(lead_pitch=0.2, trail_pitch=0.6, over_share=0.9),
+    )
+    bare = planned(0.05, 0.25, replace(params, max_repairs=0))[0].report
+    repaired = planned(0.05, 0.25, params)[0].report
+    assert repaired.repairs.shift > 0.0 or repaired.repairs.path.size
+    assert repaired.gap > bare.gap + 0.003
+
+
+def test_the_ankle_yields_as_the_jacobians_say() -> None:
+    """Eq. 25: a point half-way down the shin moves less than the ankle."""
+    leg: LegModel = body().leg
+    angles = np.array([-0.8, 0.0, 0.0, 1.4, 0.0, -0.6])
+    at_ankle = ankle_displacement(leg, "left", angles, leg.shank, 0.01)
+    half_way = ankle_displacement(leg, "left", angles, 0.5 * leg.shank, 0.01)
+    assert at_ankle == pytest.approx(0.01, abs=1e-6)
+    assert 0.0 < half_way < 0.03
+    assert half_way != pytest.approx(at_ankle, abs=1e-4)

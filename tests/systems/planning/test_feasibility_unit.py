@@ -1,0 +1,97 @@
+"""FU: yes with a configuration, no with the constraint that fails."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from systems.planning.feasibility_maps import feasibility_maps
+from systems.planning.feasibility_unit import (
+    FeasibilityParams,
+    check_double_support,
+    feasibility_unit,
+)
+from systems.planning.leg_clearance import Section
+from tests.systems.planning.crossing_cases import WAIST, body
+
+
+@pytest.mark.parametrize("height", [0.0, 0.05, 0.15, 0.20, 0.25])
+def test_the_key_configuration_meets_its_constraints(height: float) -> None:
+    """Checked again at the waist's place and at both ends of its way."""
+    params, leg = FeasibilityParams(), body().leg
+    key = feasibility_unit(Section(0.05, height), WAIST, leg, params).key
+    assert key is not None
+    assert key.X_hds == pytest.approx(params.delta_ds * key.X_ads)
+    assert params.lowest_waist <= key.Z_hds <= WAIST
+    inflated = Section(0.05 + 2.0 * params.s_w, height + params.s_h)
+    travel = np.array([-params.waist_travel, 0.0, params.waist_travel])
+    ones = np.ones(3)
+    checked = check_double_support(
+        inflated,
+        key.X_ads * ones,
+        key.X_hds + travel,
+        key.Z_hds * ones,
+        (key.front - params.s_w) * ones,
+        leg,
+    )
+    assert (checked.reached == 1.0).all()
+    assert (checked.limits <= -params.joint_margin + 1e-9).all()
+    assert (checked.gap > 0.0).all()
+    # Feet and margins fit exactly: the search begins with the least step.
+    assert key.X_ads >= leg.outline.toe + leg.outline.heel + inflated.width - 1e-9
+
+
+def test_higher_obstacles_want_longer_steps_or_lower_waists() -> None:
+    """Monotone in the height."""
+    steps = []
+    for height in (0.05, 0.15, 0.20, 0.25, 0.30):
+        answer = feasibility_unit(
+            Section(0.05, height), WAIST, body().leg, FeasibilityParams()
+        )
+        assert answer.key is not None
+        steps.append(answer.key.X_ads)
+    assert steps == sorted(steps)
+    assert steps[-1] > steps[0] + 0.03
+
+
+def test_it_says_which_constraint_fails() -> None:
+    """Too wide, legs too short, and legs that meet the obstacle."""
+    leg, params = body().leg, FeasibilityParams()
+    wide = feasibility_unit(Section(0.4, 0.1), WAIST, leg, params)
+    assert wide.key is None
+    assert "0.40 m wide" in wide.constraint
+    high = replace(params, lowest_waist=0.88)
+    short = feasibility_unit(Section(0.05, 0.1), 0.90, leg, high)
+    assert "Eq. 1" in short.constraint
+    assert "too short" in short.constraint
+    tall = feasibility_unit(Section(0.05, 0.75), WAIST, leg, params)
+    assert tall.key is None
+    assert "Eq. 5" in tall.constraint
+
+
+def test_dynamic_maps_allow_higher_waists_than_quasi_static_ones() -> None:
+    """Remarks 1 and 2 of the paper, for this robot."""
+    X, Z = np.arange(0.34, 0.60, 0.04), np.arange(0.54, 0.86, 0.04)
+    maps = feasibility_maps(Section(0.05, 0.15), body().leg, X, Z)
+    assert maps.within.sum() >= max(maps.begin.sum(), maps.end.sum())
+    assert not (maps.quasi_static > maps.within).any()
+    highest = [
+        Z[np.flatnonzero(table.any(axis=1))].max()
+        for table in (maps.quasi_static, maps.dynamic)
+    ]
+    assert highest[1] > highest[0] + 0.03
+    long = X >= 0.46
+    tops = [
+        max(
+            (z for z, row in zip(Z, table[:, long], strict=True) if row.any()),
+            default=0,
+        )
+        for table in (maps.quasi_static, maps.dynamic)
+    ]
+    assert tops[1] > tops[0]
+
+
+def test_validation() -> None:
+    """A field out of range is named."""
+    with pytest.raises(ValueError, match="delta_ds: must lie in"):
+        replace(FeasibilityParams(), delta_ds=1.5).validate()

@@ -1,0 +1,111 @@
+"""FTG: the foot's way over an obstacle and to the ground."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from systems.planning.foot_trajectory_generator import (
+    Crossing,
+    FootTrajectoryParams,
+    foot_trajectory,
+)
+from systems.planning.leg_clearance import Section, outline_gap
+from systems.planning.leg_model import rotations
+from systems.ports import Vector
+from tests.systems.planning.crossing_cases import body
+
+DURATION = 1.3
+TIME: Vector = np.linspace(0.0, DURATION, 261)
+OVER = Section(0.14, 0.195)
+
+
+def _way(params: FootTrajectoryParams, leads: bool, over: bool = True) -> Vector:
+    leg = body().leg
+    end = np.zeros(6)
+    end[0] = 0.41
+    front = leg.outline.toe + 0.004
+    return foot_trajectory(
+        np.zeros(6),
+        end,
+        TIME,
+        DURATION,
+        Crossing(OVER, front, leads) if over else None,
+        leg.outline,
+        leg.sole.ankle_height,
+        params,
+    )
+
+
+def _feet(poses: Vector) -> Vector:
+    """Corners of the foot's outline before the obstacle's front face, (n, 4, 2)."""
+    leg = body().leg
+    R = rotations(poses[:, 3:])
+    p_A = np.zeros((4, 3))
+    p_A[:, [0, 2]] = leg.outline.foot
+    p_A[:, 2] += leg.sole.ankle_height
+    points = poses[:, None, :3] + np.einsum("nij,kj->nki", R, p_A)
+    planar = points[:, :, [0, 2]]
+    planar[:, :, 0] -= leg.outline.toe + 0.004
+    return np.asarray(planar)
+
+
+@pytest.mark.parametrize("leads", [True, False])
+def test_the_foot_keeps_off_the_inflated_obstacle(leads: bool) -> None:
+    """The whole outline of the foot, at every moment."""
+    poses = _way(FootTrajectoryParams(), leads)
+    assert outline_gap(_feet(poses), OVER).min() > 0.0
+
+
+@pytest.mark.parametrize("over", [True, False])
+def test_it_starts_and_ends_at_rest_where_it_is_to(over: bool) -> None:
+    """Position, velocity and a foot that never sinks into the ground."""
+    poses = _way(FootTrajectoryParams(), True, over)
+    np.testing.assert_allclose(poses[0], 0.0, atol=1e-12)
+    np.testing.assert_allclose(poses[-1, :3], [0.41, 0.0, 0.0], atol=1e-9)
+    rate = np.gradient(poses, TIME, axis=0)
+    assert np.abs(rate[[0, -1]]).max() < 0.05
+    assert _feet(poses)[:, :, 1].min() > -1e-3
+
+
+def test_it_lands_more_slowly_than_the_polynomial() -> None:
+    """Speed a centimetre above the ground, the paper's reason for splines."""
+    speeds = []
+    for profile in ("splines", "polynomial"):
+        params = replace(FootTrajectoryParams(), profile=profile)
+        z = _way(params, True)[:, 2]
+        falling = np.flatnonzero(z > 0.01)[-1]
+        speeds.append(-np.gradient(z, TIME)[falling])
+    assert 0.0 < speeds[0] < speeds[1]
+
+
+def test_a_shift_moves_the_way_to_the_rear() -> None:
+    """The first repair: start and end stay."""
+    leg, params = body().leg, FootTrajectoryParams()
+    crossing = Crossing(OVER, leg.outline.toe + 0.004, False)
+    end = np.zeros(6)
+    end[0] = 0.41
+    ways = [
+        foot_trajectory(
+            np.zeros(6),
+            end,
+            TIME,
+            DURATION,
+            crossing,
+            leg.outline,
+            leg.sole.ankle_height,
+            params,
+            shift,
+        )
+        for shift in (0.0, 0.05)
+    ]
+    np.testing.assert_allclose(ways[0][[0, -1]], ways[1][[0, -1]], atol=1e-9)
+    assert (ways[1][:, 0] - ways[0][:, 0]).min() < -0.04
+
+
+def test_validation() -> None:
+    """A field out of range is named."""
+    with pytest.raises(ValueError, match="lifted: must lie"):
+        replace(FootTrajectoryParams(), lifted=0.8).validate()
+    with pytest.raises(ValueError, match="profile: must be"):
+        replace(FootTrajectoryParams(), profile="circle").validate()

@@ -1,0 +1,61 @@
+"""Closed-form legs against the plant's own kinematics."""
+
+import numpy as np
+import pytest
+from pydrake.math import RollPitchYaw
+
+from models.jvrc1 import JVRC1
+from systems.planning.leg_model import leg_angles, outline_points, rotations
+from systems.ports import Vector
+from systems.values import FEET, Foot
+from tests.systems.planning.crossing_cases import body, scratch
+
+
+@pytest.mark.parametrize("foot", FEET)
+def test_angles_are_those_that_made_the_pose(foot: Foot) -> None:
+    """Random postures: forward by the plant, back by the closed form."""
+    plant, leg, context = body().plant, body().leg, scratch()
+    rng = np.random.default_rng(3)
+    low = np.array([-1.5, -0.2, -0.3, 0.25, -0.3, -1.2])
+    high = np.array([0.4, 0.3, 0.3, 2.2, 0.3, 0.5])
+    for _ in range(50):
+        wanted = rng.uniform(low, high)
+        rpy = rng.uniform(-0.3, 0.3, 3)
+        q: Vector = np.zeros(plant.num_positions())
+        q[:4] = RollPitchYaw(rpy).ToQuaternion().wxyz()
+        q[4:7] = rng.uniform(-1.0, 1.0, 3)
+        for name, angle in zip(JVRC1.leg_joints[foot], wanted, strict=True):
+            q[plant.GetJointByName(name).position_start()] = angle
+        plant.SetPositions(context, q)
+        ankle = plant.GetBodyByName(JVRC1.foot_bodies[foot]).EvalPoseInWorld(context)
+        p_AF: Vector = np.array([0.0, 0.0, -JVRC1.sole.ankle_height])
+        sole = np.concatenate(
+            [ankle.multiply(p_AF), RollPitchYaw(ankle.rotation()).vector()]
+        )
+        found = leg_angles(leg, foot, q[None, 4:7], rotations(rpy[None]), sole[None])
+        np.testing.assert_allclose(found.angles[0], wanted, atol=1e-9)
+        assert found.short[0] == 0.0
+        knee = plant.GetJointByName(JVRC1.leg_joints[foot][3]).child_body()
+        _, p_WK = outline_points(leg, foot, found.angles, sole[None])
+        np.testing.assert_allclose(
+            p_WK[0], knee.EvalPoseInWorld(context).translation(), atol=1e-9
+        )
+
+
+def test_out_of_reach_is_told_by_how_much() -> None:
+    """The leg hangs straight down and the ground is 5 cm too low."""
+    leg = body().leg
+    waist: Vector = np.array([[0.0, -leg.hips["left"][1], 0.0]])
+    waist[0, 2] = leg.reach + leg.sole.ankle_height + 0.05
+    found = leg_angles(leg, "left", waist, np.eye(3)[None], np.zeros((1, 6)))
+    assert found.short[0] == pytest.approx(0.05)
+    assert found.angles[0, 3] == pytest.approx(leg.lower[0, 3])
+
+
+def test_outline_holds_the_sole_and_comes_from_the_mesh() -> None:
+    """The foot's mesh reaches beyond the flat sole at both ends."""
+    outline = body().leg.outline
+    assert JVRC1.sole.toe < outline.toe < JVRC1.sole.toe + 0.02
+    assert JVRC1.sole.heel < outline.heel < JVRC1.sole.heel + 0.03
+    assert outline.shank[1, 0] > 0.08
+    assert outline.shank[2, 0] < 0.0
