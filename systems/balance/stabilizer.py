@@ -220,6 +220,10 @@ class Stabilizer(LeafSystem):
             self._params.distribution,
             self._leg_torques(context),
         )
+        if not solved:
+            raise RuntimeError(
+                f"no foot wrenches near {np.round(force)} N within the contact cones"
+            )
         set_vector(output, wrenches.ravel())
 
     def _leg_torques(self, context: Context) -> TorqueMap | None:
