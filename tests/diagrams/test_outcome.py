@@ -199,6 +199,16 @@ def test_errors_of_com_and_dcm(climb: Evidence) -> None:
     assert judgement.max_dcm_error_m == pytest.approx(0.5)
 
 
+def test_static_margin_is_the_least_where_there_is_a_polygon(climb: Evidence) -> None:
+    """A moment without any polygon has no margin."""
+    margins = np.full((len(climb.motion.time), 1), 0.05)
+    margins[0], margins[1] = -np.inf, -0.01
+    frames = {**climb.frames, "static_stability.margin": frame(margins)}
+    judgement = judge(replace(climb, frames=frames))
+    assert judgement.min_static_margin_m == pytest.approx(-0.01)
+    assert judge(climb).min_static_margin_m is None
+
+
 def test_slip_is_mentioned(climb: Evidence) -> None:
     """A completed climb with a slip over a centimetre says so."""
     corners = climb.motion.sole_corners["left"].copy()

@@ -10,6 +10,7 @@ from models.robot_loader import add_robot
 
 
 def test_are_those_of_the_plant() -> None:
+    """Same extents as the geometry that the parser registers."""
     plant, scene_graph = AddMultibodyPlantSceneGraph(DiagramBuilder(), time_step=0.0)
     add_robot(plant, scene_graph, JVRC1)
     plant.Finalize()
@@ -29,6 +30,7 @@ def test_are_those_of_the_plant() -> None:
 
 
 def test_shins_are_as_long_as_the_robot() -> None:
+    """Between knee and ankle."""
     hulls = {hull.body: hull.vertices for hull in collision_hulls(JVRC1)}
     for side in "LR":
         length = np.ptp(hulls[f"{side}_KNEE_S"][:, 2])

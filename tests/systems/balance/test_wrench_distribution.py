@@ -10,7 +10,11 @@ from scipy.optimize import linprog
 
 from models.jvrc1 import JVRC1
 from systems.balance.contact_wrench_cone import contact_wrench_cone
-from systems.balance.wrench_distribution import DistributionParams, distribute_wrench
+from systems.balance.wrench_distribution import (
+    DistributionParams,
+    TorqueMap,
+    distribute_wrench,
+)
 from systems.ports import Vector
 
 SOLE = JVRC1.sole
@@ -201,6 +205,55 @@ def test_costs_prefer_the_middle_of_the_soles() -> None:
     shares = wrenches[:, 2] / WEIGHT
     np.testing.assert_allclose(shares, [2.0 / 3.0, 1.0 / 3.0], atol=0.01)
     np.testing.assert_allclose(-wrenches[:, 4] / wrenches[:, 2], 0.0375, atol=0.01)
+
+
+def test_joint_torques_are_kept_small_where_the_feet_can_share() -> None:
+    """A joint that the left foot's force loads gets the right foot to carry more."""
+    net = np.array([0.0, 0.0, WEIGHT, 0.0, 0.0, 0.0])
+    matrix = np.zeros((1, 12))
+    matrix[0, 2] = 0.2
+    torques = TorqueMap(np.array([10.0]), matrix)
+    loads = []
+    for cost in (0.0, 0.1):
+        params = DistributionParams(torque_cost=cost)
+        wrenches, _ = distribute_wrench(
+            net, COM, STAIRS, np.ones(2), FLAT, SOLE, params, torques
+        )
+        np.testing.assert_allclose(net_of(wrenches, STAIRS), net, atol=2.0)
+        loads.append(wrenches[0, 2])
+    assert loads[1] < 0.7 * loads[0]
+
+
+def test_torques_of_tilted_feet_are_those_of_wrenches_about_their_frames() -> None:
+    """What is minimised is offset - matrix w of the wrenches that are returned."""
+    rng = np.random.default_rng(4)
+    net = np.array([10.0, -5.0, WEIGHT, 4.0, -8.0, 1.0])
+    torques = TorqueMap(rng.normal(size=3) * 30.0, rng.normal(size=(3, 12)) * 0.2)
+    params = DistributionParams(torque_cost=0.02)
+
+    def cost(w: Vector) -> float:
+        tau = torques.offset - torques.matrix @ w
+        error = net_of(w.reshape(2, 6), TOE_OFF) - net
+        weights = [params.force_weight] * 3 + [params.moment_weight] * 2
+        total = error**2 @ [*weights, params.yaw_weight] + 0.02 * tau @ tau
+        for wrench, pose, length in zip(
+            w.reshape(2, 6), TOE_OFF, (0.01, SOLE.length), strict=True
+        ):
+            R = RollPitchYaw(pose[3:]).ToRotationMatrix().matrix()
+            f = R.T @ wrench[:3]
+            centre = np.array([SOLE.toe - 0.5 * length, 0.0, 0.0])
+            m = R.T @ wrench[3:] - np.cross(centre, f)
+            total += params.tangential_cost * f[:2] @ f[:2]
+            total += np.array(params.moment_cost) @ m**2
+        return float(total)
+
+    best, _ = distribute_wrench(
+        net, COM, TOE_OFF, np.ones(2), STRIP, SOLE, params, torques
+    )
+    other, _ = distribute_wrench(net, COM, TOE_OFF, np.ones(2), STRIP, SOLE, params)
+    for share in (1e-3, 0.1, 1.0):
+        between = best + share * (other - best)
+        assert cost(best.ravel()) < cost(between.ravel())
 
 
 def test_poses_may_stand_anywhere() -> None:

@@ -176,3 +176,13 @@ def test_parameters_out_of_range_are_refused(field: str, value: float) -> None:
     """By name."""
     with pytest.raises(ValueError, match=rf"^{field}: must .*, got "):
         Executive(ExecutiveParams(**{field: value}), STAND)
+
+
+def test_a_motion_that_cannot_be_done_is_refused_before_moving() -> None:
+    """The task is infeasible for the plan's reason; nothing new is carried out."""
+    before = Decision(STAND, activity="scan", since=1.0)
+    refused = replace(motion(), reason="torque: KNEE would need 120 Nm")
+    after = decided(before, 4.0, 1, PLANNED, lambda: refused)
+    assert after.activity == "stand"
+    assert after.motion_plan is STAND
+    assert after.status == TaskStatus("infeasible", "stand", refused.reason)

@@ -221,3 +221,26 @@ def test_a_lifted_heel_is_pushed_at_the_sole_frame(standing) -> None:
     axis = X_WA.rotation().multiply(joint.revolute_axis())
     moment = axis @ np.cross(p_AF_W, wrenches[6:9])
     assert found["R_ANKLE_P"] - rest["R_ANKLE_P"] == pytest.approx(-moment)
+
+
+def test_leg_torque_map_gives_the_leg_torques(standing) -> None:
+    """Offset minus matrix times wrenches, in the order of the actuators."""
+    system = WholeBodyFeedforward(standing.plant, JVRC1, 150.0)
+    context = system.CreateDefaultContext()
+    nv = standing.plant.num_velocities()
+    rng = np.random.default_rng(5)
+    wrenches = rng.normal(size=12) * np.tile([5, 5, 50, 2, 2, 2], 2)
+    system.GetInputPort("positions").FixValue(context, standing.q)
+    system.GetInputPort("velocities").FixValue(context, 0.1 * rng.normal(size=nv))
+    system.GetInputPort("accelerations").FixValue(context, rng.normal(size=nv))
+    system.GetInputPort("foot_wrenches").FixValue(context, wrenches)
+    values = system.GetOutputPort("leg_torque_map").Eval(context)
+    legs = {name for leg in JVRC1.leg_joints.values() for name in leg}
+    joints = [
+        standing.plant.get_joint_actuator(index).joint().name()
+        for index in standing.plant.GetJointActuatorIndices()
+    ]
+    torque = system.GetOutputPort("torque").Eval(context)
+    want = [torque[i] for i, name in enumerate(joints) if name in legs]
+    found = values[:12] - values[12:].reshape(12, 12) @ wrenches
+    np.testing.assert_allclose(found, want, atol=1e-9)
