@@ -1,0 +1,95 @@
+"""Obstacles in clouds of a scene whose truth is known."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from systems.perception.obstacles import (
+    ObstacleFinderParams,
+    find_obstacles,
+    floor_height,
+)
+from systems.ports import Vector
+
+EYES: Vector = np.array([0.0, 0.0, 1.5])
+
+
+def _cloud(
+    boxes: list[tuple[float, float, float, float, float, float]], noise: float = 0.005
+) -> Vector:
+    """Floor, front faces and tops of boxes (x, y, yaw, width, length, height)."""
+    rng = np.random.default_rng(5)
+    parts = [
+        np.column_stack(
+            [rng.uniform([0.4, -1.5], [2.4, 1.5], (12000, 2)), np.zeros(12000)]
+        )
+    ]
+    for x, y, yaw, width, length, height in boxes:
+        c, s = np.cos(yaw), np.sin(yaw)
+        across, along = np.array([c, s]), np.array([-s, c])
+        for depth, face in ((width, False), (height, True)):
+            n = int(20000 * depth * length)
+            u = rng.uniform(0.0, 1.0, n) * depth
+            v = rng.uniform(-0.5, 0.5, n) * length
+            offset = -width / 2.0 if face else u - width / 2.0
+            p = (
+                np.array([x, y])
+                + np.multiply.outer(np.broadcast_to(offset, n), across)
+                + v[:, None] * along
+            )
+            parts.append(np.column_stack([p, u if face else np.full(n, height)]))
+    points = np.vstack(parts)
+    ray = points - EYES
+    distance = np.linalg.norm(ray, axis=1)
+    noisy: Vector = (
+        points + (noise * rng.standard_normal(len(ray)) / distance)[:, None] * ray
+    )
+    return noisy
+
+
+@pytest.mark.parametrize("yaw", [0.0, 0.26, -0.4])
+@pytest.mark.parametrize("height", [0.08, 0.15, 0.25])
+def test_size_place_and_yaw(yaw: float, height: float) -> None:
+    """Within what the margins of a crossing have left."""
+    seen = find_obstacles(
+        _cloud([(1.2, 0.1, yaw, 0.05, 1.0, height)]), EYES, ObstacleFinderParams()
+    )
+    assert seen.status == "ok"
+    assert seen.floor_height == pytest.approx(0.0, abs=1e-3)
+    (found,) = seen.obstacles
+    assert found.height == pytest.approx(height, abs=0.005)
+    assert found.width == pytest.approx(0.05, abs=0.012)
+    assert found.yaw == pytest.approx(yaw, abs=np.radians(1.0))
+    ahead = np.array([np.cos(yaw), np.sin(yaw)])
+    front = found.center @ ahead - found.width / 2.0
+    assert front == pytest.approx(np.array([1.2, 0.1]) @ ahead - 0.025, abs=0.004)
+    assert found.length == pytest.approx(1.0, abs=0.05)
+
+
+def test_two_in_a_row_are_two_nearest_first() -> None:
+    """60 cm apart."""
+    boxes = [(1.7, 0.0, 0.0, 0.05, 1.0, 0.15), (1.1, 0.0, 0.0, 0.05, 1.0, 0.15)]
+    seen = find_obstacles(_cloud(boxes), EYES, ObstacleFinderParams())
+    assert [round(item.center[0], 1) for item in seen.obstacles] == [1.1, 1.7]
+
+
+def test_bare_floor_has_none_and_nothing_has_no_floor() -> None:
+    """A millimetre high is the floor too."""
+    params = ObstacleFinderParams()
+    assert find_obstacles(_cloud([]), EYES, params).obstacles == ()
+    low = _cloud([(1.2, 0.0, 0.0, 0.05, 1.0, 0.001)])
+    assert find_obstacles(low, EYES, params).obstacles == ()
+    assert find_obstacles(np.zeros((0, 3)), EYES, params).status == "no floor"
+
+
+def test_floor_height_is_the_densest_level() -> None:
+    """Not the lowest points."""
+    z = np.concatenate([np.full(50, 0.3), np.full(20, -0.2), np.full(10, 0.6)])
+    assert floor_height(z, 0.02) == pytest.approx(0.3)
+
+
+def test_validation() -> None:
+    """A field out of range is named."""
+    with pytest.raises(ValueError, match="tail: must lie"):
+        replace(ObstacleFinderParams(), tail=0.4).validate()
