@@ -136,10 +136,13 @@ def _tree(
 @lru_cache(maxsize=128)
 def _shared_tree(vertices: bytes, triangles: bytes) -> o3d.t.geometry.RaycastingScene:
     tree = o3d.t.geometry.RaycastingScene(nthreads=1)
+    corners = np.frombuffer(vertices, dtype=np.float32).reshape(-1, 3)
+    faces = np.frombuffer(triangles, dtype=np.uint32).reshape(-1, 3)
     # Open3D's stubs take an array's shape for its element type.
-    corners: Any = np.frombuffer(vertices, dtype=np.float32).reshape(-1, 3)
-    faces: Any = np.frombuffer(triangles, dtype=np.uint32).reshape(-1, 3)
-    tree.add_triangles(o3d.core.Tensor(corners), o3d.core.Tensor(faces))
+    tree.add_triangles(
+        o3d.core.Tensor(corners),  # type: ignore[call-overload]
+        o3d.core.Tensor(faces),  # type: ignore[call-overload]
+    )
     return tree
 
 
