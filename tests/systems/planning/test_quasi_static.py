@@ -1,6 +1,7 @@
 """Segments of quasi-static climbing and the motion that carries them out."""
 
 import dataclasses
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -49,7 +50,7 @@ def test_a_step_is_the_paper_s_five_segments(step_24cm: MotionTask) -> None:
     np.testing.assert_allclose(segments[4].com[1][2], 0.24 + 0.85)
     np.testing.assert_allclose(segments[5].com[1], [0.327 + 0.035, 0.0, 0.24 + 0.85])
     np.testing.assert_allclose(segments[3].lengths, [0.01, JVRC1.sole.length])
-    for before, after in zip(segments, segments[1:], strict=False):
+    for before, after in pairwise(segments):
         np.testing.assert_array_equal(before.com[1], after.com[0])
         np.testing.assert_array_equal(before.end, after.start)
         assert before.lean[1] == after.lean[0]
