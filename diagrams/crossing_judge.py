@@ -19,6 +19,8 @@ BOX_PREFIX = "box/"
 """What the names of obstacles begin with."""
 LANDING_TIME = 0.15
 """After touch-down a foot's force counts as impact for this long, s."""
+SAME = 0.3
+"""What was seen within this of a true obstacle is that obstacle, m."""
 
 
 @dataclass(frozen=True)
@@ -84,8 +86,9 @@ def measure_crossing(
 
 
 def obstacles_crossed(motion: TrueMotion, boxes: Sequence[Box]) -> int:
-    """How many boxes the feet went over and ended beyond."""
-    return sum(crossed(midpoints(motion), box) for box in boxes)
+    """How many boxes the feet, or one of them, went over and ended beyond."""
+    paths = [midpoints(motion), *(motion.X_WF[foot][:, :2, 3] for foot in FEET)]
+    return sum(any(crossed(path, box) for path in paths) for box in boxes)
 
 
 def eyes_summary(evidence: CrossingEvidence) -> dict[str, Json]:
@@ -119,6 +122,9 @@ def _errors(obstacle: Obstacle, floor: float, boxes: Sequence[Box]) -> Vector | 
             np.linalg.norm(item.X_WB.translation()[:2] - obstacle.center)
         ),
     )
+    middle = box.X_WB.translation()[:2]
+    if np.linalg.norm(middle - obstacle.center) > SAME:
+        return None
     thin = int(np.argmin(box.size[:2]))
     across = np.array(box.X_WB.rotation().matrix()[:2, thin])
     ahead = np.array([np.cos(obstacle.yaw), np.sin(obstacle.yaw)])

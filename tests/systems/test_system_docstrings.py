@@ -21,6 +21,7 @@ from pydrake.multibody.tree import ModelInstanceIndex
 from pydrake.systems.framework import LeafSystem
 
 import systems
+from diagrams.obstacle_crossing import planning_body
 from models.jvrc1 import JVRC1
 from models.robot_loader import add_robot
 from models.solids import triangle_mesh
@@ -36,9 +37,12 @@ from systems.perception.depth_cloud import DepthCloud, DepthCloudParams
 from systems.perception.environment_exchange import EnvironmentExchange
 from systems.perception.floor_extractor import FloorExtractor
 from systems.perception.obstacle_clusterer import ObstacleClusterer
+from systems.perception.obstacle_finder import ObstacleFinder
 from systems.perception.plane_segmenter import PlaneSegmenter
 from systems.perception.scan_assembler import ScanAssembler, ScanAssemblerParams
 from systems.perception.staircase_map import StaircaseMap
+from systems.planning.crossing_params import CrossingParams
+from systems.planning.crossing_planner import CrossingPlanner
 from systems.planning.executive import Executive, ExecutiveParams
 from systems.planning.footstep_params import FootstepPlannerParams
 from systems.planning.footstep_planner import FootstepPlanner
@@ -99,6 +103,14 @@ FACTORIES: dict[type[LeafSystem], Callable[[], LeafSystem]] = {
     ComReference: ComReference,
     ContactMonitor: lambda: ContactMonitor(WatchedGeometry((), (), {}, {}), 0.002),
     Executive: lambda: Executive(ExecutiveParams(), standing_plan()),
+    CrossingPlanner: lambda: CrossingPlanner(
+        FootstepPlannerParams(),
+        MotionPlannerParams(),
+        CrossingParams(),
+        ZmpPreviewParams(),
+        planning_body(JVRC1, _plant()),
+        standing_plan(),
+    ),
     DepthCamera: lambda: DepthCamera(DepthCameraParams(), scene=triangle_mesh([])),
     DepthCloud: lambda: DepthCloud(DepthCloudParams()),
     EnvironmentExchange: EnvironmentExchange,
@@ -115,6 +127,7 @@ FACTORIES: dict[type[LeafSystem], Callable[[], LeafSystem]] = {
     ),
     MotionPlayer: lambda: MotionPlayer(320),
     ObstacleClusterer: ObstacleClusterer,
+    ObstacleFinder: ObstacleFinder,
     PathExecutive: lambda: PathExecutive(
         PathExecutiveParams(), JVRC1.sole, standing_plan(), lambda plan, time: None
     ),

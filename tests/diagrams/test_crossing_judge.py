@@ -1,0 +1,60 @@
+"""The judge of crossings on made-up motions and boxes."""
+
+import numpy as np
+import pytest
+
+from diagrams.box_clearance import box_distance, crossed, surface_points
+from diagrams.crossing_judge import CrossingEvidence, eyes_summary
+from models.obstacle import BoxParams
+from systems.obstacle_values import Obstacle, ObstacleMap
+from systems.ports import Vector
+
+BOX = BoxParams(name="o", x=1.0, yaw=0.2, size=[0.05, 1.0, 0.15]).solid()
+
+
+def test_distance_to_a_box() -> None:
+    """Above, before, at a corner, inside."""
+    p_B = np.array(
+        [[0.0, 0.0, 0.105], [-0.065, 0.0, 0.0], [0.055, 0.54, 0.0], [0.0, 0.0, 0.07]]
+    )
+    p_W: Vector = np.array(BOX.X_WB.multiply(p_B.T)).T
+    np.testing.assert_allclose(
+        box_distance(p_W, BOX), [0.03, 0.04, 0.05, -0.005], atol=1e-9
+    )
+
+
+def test_surface_points_leave_no_gap() -> None:
+    """Every point of a triangle has a neighbour within the spacing."""
+    vertices: Vector = np.array([[0.0, 0.0, 0.0], [0.1, 0.0, 0.0], [0.0, 0.06, 0.02]])
+    points = surface_points(vertices, np.array([[0, 1, 2]]), 0.008)
+    rng = np.random.default_rng(0)
+    u = rng.dirichlet(np.ones(3), 200)
+    distance = np.linalg.norm((u @ vertices)[:, None] - points, axis=2).min(axis=1)
+    assert distance.max() < 0.008
+
+
+def test_crossed_means_over_and_beyond() -> None:
+    """Not around it, not up to it, not onto it."""
+    x = np.linspace(0.0, 2.0, 201)
+    straight = np.column_stack([x, np.zeros(201)])
+    assert crossed(straight, BOX)
+    assert not crossed(straight[:90], BOX)
+    assert not crossed(straight[:101], BOX)
+    assert not crossed(straight + [0.0, 0.8], BOX)
+
+
+def test_the_eyes_errors_are_those_of_the_box_that_was_meant() -> None:
+    """Width, height, front and yaw; what is far from every box counts for none."""
+    middle = BOX.X_WB.translation()[:2]
+    ahead = np.array([np.cos(0.2), np.sin(0.2)])
+    seen = Obstacle(middle + 0.003 * ahead, 0.2, 0.06, 0.14, 1.0)
+    wall = Obstacle(np.array([4.0, 0.0]), 0.0, 0.2, 1.0, 5.0)
+    evidence = CrossingEvidence((BOX,), (), (ObstacleMap((seen, wall), 0.0, "ok"),), ())
+    summary = eyes_summary(evidence)
+    assert summary["frames"] == 1
+    errors = summary["errors"]
+    assert isinstance(errors, dict)
+    assert errors["max_width_m"] == pytest.approx(0.01)
+    assert errors["max_height_m"] == pytest.approx(0.01)
+    assert errors["max_front_m"] == pytest.approx(0.002)
+    assert errors["max_yaw_deg"] == pytest.approx(0.0, abs=1e-6)
