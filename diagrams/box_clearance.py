@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from pydrake.math import RigidTransform
@@ -35,7 +36,9 @@ class BoxClearance:
     """s."""
 
 
-def surface_points(vertices: Vector, triangles: Vector, spacing: float) -> Vector:
+def surface_points(
+    vertices: Vector, triangles: np.ndarray[Any, Any], spacing: float
+) -> Vector:
     """Points on a mesh, no farther from each other than `spacing`, (n, 3).
 
     Args:

@@ -5,7 +5,7 @@ the rear ankle at x = 0, the front ankle at X_ads, the waist at (X_hds, Z_hds).
 """
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -15,6 +15,8 @@ from systems.planning.leg_clearance import Section, outline_gap
 from systems.planning.leg_model import LegModel, leg_angles, outline_points, rotations
 from systems.ports import Vector
 from systems.values import FEET
+
+Mask: TypeAlias = np.ndarray[Any, np.dtype[np.bool_]]
 
 JOINTS = ("hip pitch", "hip roll", "hip yaw", "knee", "ankle roll", "ankle pitch")
 SLACKS = (0.5, 0.25, 0.75, 0.0, 1.0)
@@ -168,8 +170,8 @@ def feasibility_unit(
         np.min([part.gap for part in parts], axis=0),
     )
     margin = params.joint_margin
-    within = (checked.reached > 0.5) & (checked.limits <= -margin).all(axis=1)
-    free = within & (checked.gap > 0.0)
+    within: Mask = (checked.reached > 0.5) & (checked.limits <= -margin).all(axis=1)
+    free: Mask = within & (checked.gap > 0.0)
     if not free.any():
         return Feasibility(constraint=_failing(checked, within, margin, section))
     best = int(np.argmax(free))
@@ -182,7 +184,7 @@ def feasibility_unit(
     return Feasibility(key)
 
 
-def _failing(checked: Checked, within: Vector, margin: float, section: Section) -> str:
+def _failing(checked: Checked, within: Mask, margin: float, section: Section) -> str:
     """The constraint that no configuration meets, in one line."""
     what = f"an obstacle {section.height:.2f} m high and {section.width:.2f} m wide"
     if within.any():

@@ -40,7 +40,7 @@ def test_crossed_means_over_and_beyond() -> None:
     assert crossed(straight, BOX)
     assert not crossed(straight[:90], BOX)
     assert not crossed(straight[:101], BOX)
-    assert not crossed(straight + [0.0, 0.8], BOX)
+    assert not crossed(straight + np.array([0.0, 0.8]), BOX)
 
 
 def test_the_eyes_errors_are_those_of_the_box_that_was_meant() -> None:
