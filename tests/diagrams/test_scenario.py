@@ -230,3 +230,10 @@ def test_a_room_that_is_too_full_is_refused() -> None:
     message = _message("room", "scene.clutter={least_count: 500, most_count: 500}")
     assert "scene.clutter: " in message
     assert "no room for 500 boxes" in message
+
+
+def test_only_stairs_are_climbed_quasi_statically() -> None:
+    """A room is not crossed so slowly."""
+    assert load_scenario("stair-24cm", ["task.mode=quasi_static"])
+    message = _message("room", "task.mode=quasi_static")
+    assert "task.mode: room_crossing is only done dynamic, got" in message
