@@ -31,8 +31,9 @@ class LegOutline:
     foot: Vector
     """L_1 heel, L_2 toe, L_3 top of the toes, L_7 top of the heel, in A, (4, 2), m."""
     shank: Vector
-    """L_4 front of the ankle, L_5 front of the shin, L_6 back of the calf, in K,
-    (3, 2), m."""
+    """L_4 front of the ankle, L_5 front of the shin, the knee cap, L_6 back of the
+    calf, in K, (4, 2), m. The paper's outline has no cap; on this robot it is what
+    comes nearest to an obstacle when the leg is folded."""
 
     @property
     def toe(self) -> float:
@@ -97,6 +98,7 @@ def leg_outline(foot: Vector, shank: Vector) -> LegOutline:
     points = [
         leg[np.argmax(leg @ [1.0, -1.0])],
         leg[np.argmax(leg[:, 0])],
+        leg[np.argmax(leg @ [1.0, 1.0])],
         leg[np.argmin(leg[:, 0])],
     ]
     return LegOutline(around, np.array(points))
@@ -232,7 +234,7 @@ def outline_points(
         sole: sole frames, (n, 6).
 
     Returns:
-        Points in the order L_1 to L_7, (n, 7, 3), and the knee, (n, 3), m.
+        Points around the outline from L_1 to L_7, (n, 8, 3), and the knee, (n, 3), m.
     """
     R_WA = rotations(sole[:, 3:])
     p_WA = sole[:, :3] + model.sole.ankle_height * R_WA[:, :, 2]

@@ -2,9 +2,11 @@
 
 import numpy as np
 import pytest
+import shapely  # type: ignore[import-untyped]
 from pydrake.math import RollPitchYaw
 
 from models.jvrc1 import JVRC1
+from models.robot_loader import body_meshes
 from systems.planning.leg_model import leg_angles, outline_points, rotations
 from systems.ports import Vector
 from systems.values import FEET, Foot
@@ -58,4 +60,14 @@ def test_outline_holds_the_sole_and_comes_from_the_mesh() -> None:
     assert JVRC1.sole.toe < outline.toe < JVRC1.sole.toe + 0.02
     assert JVRC1.sole.heel < outline.heel < JVRC1.sole.heel + 0.03
     assert outline.shank[1, 0] > 0.08
-    assert outline.shank[2, 0] < 0.0
+    assert outline.shank[3, 0] < 0.0
+
+
+def test_the_outline_holds_the_front_of_the_shank() -> None:
+    """Shin and knee cap stick out of it by a few millimetres at most."""
+    surfaces = {mesh.body: mesh.vertices for mesh in body_meshes(JVRC1)}
+    knee = body().plant.GetJointByName(JVRC1.leg_joints["left"][3]).child_body().name()
+    hull = shapely.MultiPoint(body().leg.outline.shank).convex_hull
+    front = surfaces[knee][surfaces[knee][:, 0] > 0.05]
+    outside = shapely.distance(hull, shapely.points(front[:, [0, 2]]))
+    assert outside.max() < 0.015
