@@ -18,7 +18,6 @@ from systems.perception.obstacle_finder import ObstacleFinder
 from systems.planning.crossing_planner import CrossingPlanner
 from systems.planning.executive import Executive
 from systems.planning.leg_model import leg_model, leg_outline
-from systems.planning.motion import plan_motion
 from systems.planning.whole_body_plan import WholeBody
 from systems.ports import Vector
 from systems.tracking.whole_body_ik import WholeBodyIk
@@ -70,16 +69,6 @@ def build_obstacle_crossing(
 
     ik = WholeBodyIk(station.model, robot, params.ik)
     stand = initial_stand(scenario, robot, ik, station)
-    nowhere: Vector = np.zeros((0, 3))
-    standing = plan_motion(
-        stand.foot_poses,
-        stand.com,
-        (),
-        nowhere,
-        params.motion_planner,
-        params.zmp_preview,
-        robot,
-    )
     goal: Vector = np.array(scenario.task.goal, dtype=np.float64)
     goal_source = add_system(builder, "goal", ConstantVectorSource(goal))
     planner = add_system(
@@ -91,7 +80,7 @@ def build_obstacle_crossing(
             params.crossing,
             params.zmp_preview,
             planning_body(robot, station.model),
-            standing,
+            stand.plan,
         ),
     )
     builder.Connect(
@@ -99,7 +88,9 @@ def build_obstacle_crossing(
     )
     builder.Connect(goal_source.get_output_port(), planner.GetInputPort("goal"))
 
-    executive = add_system(builder, "executive", Executive(params.executive, standing))
+    executive = add_system(
+        builder, "executive", Executive(params.executive, stand.plan)
+    )
     builder.Connect(finder.GetOutputPort("sweep"), executive.GetInputPort("sweep"))
     builder.Connect(executive.GetOutputPort("scan"), lidar.GetInputPort("enable"))
     for port in ("footstep_plan", "motion_plan"):

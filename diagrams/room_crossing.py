@@ -14,7 +14,6 @@ from diagrams.task_diagram import TaskDiagram
 from diagrams.walking import add_walking, initial_stand
 from diagrams.walking_signals import SIGNAL_PERIOD, VALUE_PERIOD, record_walking
 from diagrams.wiring import add_system
-from systems.planning.motion import plan_motion
 from systems.planning.motion_planner import MotionPlanner
 from systems.planning.motion_stop import stop_early
 from systems.planning.path_executive import PathExecutive
@@ -86,16 +85,6 @@ def build_room_crossing(
 
     ik = WholeBodyIk(station.model, robot, params.ik)
     stand = initial_stand(scenario, robot, ik, station)
-    nowhere: Vector = np.zeros((0, 3))
-    standing = plan_motion(
-        stand.foot_poses,
-        stand.com,
-        (),
-        nowhere,
-        params.motion_planner,
-        params.zmp_preview,
-        robot,
-    )
 
     def stop(plan: MotionPlan, time: float) -> MotionPlan | None:
         return stop_early(
@@ -110,7 +99,7 @@ def build_room_crossing(
     executive = add_system(
         builder,
         "executive",
-        PathExecutive(params.path_executive, robot.sole, standing, stop),
+        PathExecutive(params.path_executive, robot.sole, stand.plan, stop),
     )
     builder.Connect(frame, executive.GetInputPort("frame"))
     builder.Connect(environment, executive.GetInputPort("environment"))

@@ -18,7 +18,6 @@ from systems.perception.plane_segmenter import PlaneSegmenter
 from systems.perception.staircase_map import StaircaseMap
 from systems.planning.executive import Executive
 from systems.planning.footstep_planner import FootstepPlanner
-from systems.planning.motion import plan_motion
 from systems.planning.motion_planner import MotionPlanner
 from systems.planning.motion_prediction import MotionPredictor
 from systems.ports import Vector
@@ -98,17 +97,9 @@ def build_stair_climbing(
     )
 
     stand = initial_stand(scenario, robot, ik, station)
-    nowhere: Vector = np.zeros((0, 3))
-    standing = plan_motion(
-        stand.foot_poses,
-        stand.com,
-        (),
-        nowhere,
-        params.motion_planner,
-        params.zmp_preview,
-        robot,
+    executive = add_system(
+        builder, "executive", Executive(params.executive, stand.plan)
     )
-    executive = add_system(builder, "executive", Executive(params.executive, standing))
     builder.Connect(staircase.GetOutputPort("sweep"), executive.GetInputPort("sweep"))
     builder.Connect(executive.GetOutputPort("scan"), lidar.GetInputPort("enable"))
     for target in (motion, executive):

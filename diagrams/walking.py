@@ -15,11 +15,13 @@ from systems.balance.landing_adaptor import LandingAdaptor
 from systems.balance.stabilizer import Stabilizer
 from systems.balance.static_stability import StaticStability
 from systems.balance.zmp_preview_controller import ZmpPreviewController
+from systems.planning.motion import plan_motion
 from systems.planning.motion_player import MotionPlayer
 from systems.ports import Vector
 from systems.tracking.ik_tracker import IkTracker
 from systems.tracking.whole_body_feedforward import WholeBodyFeedforward
 from systems.tracking.whole_body_ik import IkTarget, WholeBodyIk, solve_posture
+from systems.values import MotionPlan
 
 LARGEST_ACCELERATION = 150.0
 """Joint accelerations of the reference are clamped to this, rad/s^2."""
@@ -35,6 +37,8 @@ class Stand:
     """p_WCom, (3,), m."""
     positions: Vector
     """q of the robot, (nq,)."""
+    plan: MotionPlan
+    """The motion that stays there."""
 
 
 @dataclass(frozen=True)
@@ -82,7 +86,10 @@ def initial_stand(
         waist=waist,
         waist_rate=nothing,
     )
-    return Stand(feet, com, solve_posture(ik, station.model, target))
+    nowhere: Vector = np.zeros((0, 3))
+    preview = scenario.parameters.zmp_preview
+    plan = plan_motion(feet, com, (), nowhere, planner, preview, robot)
+    return Stand(feet, com, solve_posture(ik, station.model, target), plan)
 
 
 def add_walking(
