@@ -53,6 +53,20 @@ from systems.values import FEET, Footstep, MotionPlan, Value
 
 
 @dataclass(frozen=True, eq=False)
+class BodyCurves(Value):
+    """The planned motion of the whole body over time, n rows (Figs. 8 and 9)."""
+
+    time: Vector
+    """(n,), s after the motion's start."""
+    waist: Vector
+    """Origin of the pelvis in W, (n, 3), m."""
+    zmp_cwtg1: Vector
+    """p_MB: the multibody ZMP of the motion that CWTG1 plans, x and y, (n, 2), m."""
+    zmp_cwtg2: Vector
+    """The same of the motion after CWTG2, (n, 2), m."""
+
+
+@dataclass(frozen=True, eq=False)
 class CrossingReport(Value):
     """How well a planned motion keeps what it is to keep."""
 
@@ -75,6 +89,8 @@ class CrossingReport(Value):
     """When phase 1 begins and phase 3 ends over each, s after the motion's start."""
     planning_ms: tuple[tuple[str, float], ...] = ()
     """Wall time of FU and of FTG to FTA, ms."""
+    curves: BodyCurves | None = None
+    """What the figures of a crossing show; None where nothing was planned."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -220,11 +236,12 @@ def plan_crossing(
         )
 
     moved, waist_height, factor = single_mass(repairs)
-    errors = []
+    errors, zmps = [], []
     for stage in range(crossing.filter_stages + 1):
         motion, soles = legs_of(repairs, moved, waist_height, 1)
         p_MB = body_zmp(body, context, motion.q, zmp[rows, 2], stride * walking.period)
         errors.append(_worst(zmp[rows, :2] - p_MB, time[rows], steps))
+        zmps.append(p_MB)
         if stage < crossing.filter_stages:
             spread = CubicSpline(time[rows], p_MB)(time)
             spread[rows[-1] :] = p_MB[-1]
@@ -256,6 +273,7 @@ def plan_crossing(
             )
             for k in range(len(obstacles))
         ),
+        curves=BodyCurves(time[rows], motion.waist, zmps[0], zmps[-1]),
     )
     height = CubicSpline(time[rows], motion.com[:, 2])
     path = np.column_stack([moved.com, height(time)])

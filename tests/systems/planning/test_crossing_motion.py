@@ -32,6 +32,23 @@ def test_the_filter_brings_the_zmp_five_times_nearer(motion: CrossingMotion) -> 
     assert after[1] < before[1] / 5.0
 
 
+def test_the_curves_show_the_zmp_of_both_stages(motion: CrossingMotion) -> None:
+    """Their distance to the reference in phases 1 to 3 is what the report states."""
+    report, curves = motion.report, motion.report.curves
+    assert curves is not None
+    assert curves.waist.shape == (len(curves.time), 3)
+    ((begin, end),) = report.phases
+    rows = np.round(curves.time / motion.period).astype(int)
+    inside = (curves.time > begin) & (curves.time < end)
+    for zmp, worst in (
+        (curves.zmp_cwtg1, report.zmp_error_before),
+        (curves.zmp_cwtg2, report.zmp_error_after),
+    ):
+        error = np.abs(zmp - motion.zmp[rows, :2])[inside].max(axis=0)
+        assert np.all(error <= np.array(worst) + 1e-9)
+        assert error[0] > 0.8 * worst[0]
+
+
 def test_the_phases_take_less_than_four_seconds(motion: CrossingMotion) -> None:
     """1 to 3, as the paper counts."""
     ((begin, end),) = motion.report.phases
