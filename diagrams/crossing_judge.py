@@ -11,7 +11,7 @@ from diagrams.measures import contact_intervals
 from diagrams.true_motion import TrueMotion
 from models.solids import Box
 from systems.obstacle_values import Obstacle, ObstacleMap
-from systems.planning.crossing_motion import CrossingReport
+from systems.planning.crossing_report import CrossingReport
 from systems.ports import Vector
 from systems.values import FEET, Foot, Json, to_json
 

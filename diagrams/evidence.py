@@ -16,7 +16,7 @@ from diagrams.task_diagram import TaskDiagram
 from diagrams.true_motion import TrueMotion, true_motion
 from models.staircase import Tread
 from systems.obstacle_values import ObstacleMap
-from systems.planning.crossing_motion import CrossingMotion
+from systems.planning.crossing_report import CrossingMotion
 from systems.ports import Vector
 from systems.room_values import Environment
 from systems.values import PlaneSegmentation, Staircase, TaskStatus, Touch, Touches

@@ -11,14 +11,15 @@ from pydrake.systems.framework import Context, LeafSystem, ValueProducer
 
 from systems.balance.zmp_preview import ZmpPreviewParams
 from systems.obstacle_values import ObstacleMap
+from systems.planning.crossing_feet import section_of
 from systems.planning.crossing_footsteps import (
     CrossingSteps,
     in_the_way,
     plan_crossing_steps,
 )
-from systems.planning.crossing_motion import CrossingReport, plan_crossing
+from systems.planning.crossing_motion import plan_crossing
 from systems.planning.crossing_params import CrossingParams
-from systems.planning.crossing_timing import section_of
+from systems.planning.crossing_report import CrossingReport
 from systems.planning.feasibility_unit import feasibility_unit
 from systems.planning.footstep_params import FootstepPlannerParams
 from systems.planning.motion_params import MotionPlannerParams

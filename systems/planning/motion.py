@@ -15,39 +15,29 @@ from systems.balance.zmp_preview import GRAVITY, ZmpPreviewParams, rest_state
 from systems.balance.zmp_tracking import generate_varying_height, height_factor
 from systems.planning.footstep_planner import pose_from_xyz_rpy
 from systems.planning.motion_params import MotionPlannerParams
+from systems.planning.step_timing import (
+    TimedStep,
+    along_keys,
+    contact_phases,
+    final_feet,
+    middle_zmp,
+    stance_zmp,
+    step_times,
+    transfers,
+)
 from systems.planning.swing_trajectory import quintic, swing_trajectory
 from systems.planning.toe_off import heading, lift_heel, toe_off_pitch
 from systems.ports import Vector
-from systems.values import (
-    FEET,
-    ContactPhase,
-    Foot,
-    Footstep,
-    MotionPlan,
-    other_foot,
-)
+from systems.values import FEET, Footstep, MotionPlan, other_foot
 
 LEVEL = 0.03
 """Heights this near each other are the same level, m."""
 
 
 @dataclass(frozen=True)
-class Step:
-    """One footstep in time."""
+class Step(TimedStep):
+    """One footstep of a walk or a climb in time."""
 
-    foot: Foot
-    push: float
-    """When the double support before it begins, s."""
-    lift: float
-    """When the foot leaves the ground, s."""
-    land: float
-    """When it is back, s."""
-    start: Vector
-    """Pose it leaves, (6,)."""
-    end: Vector
-    """Pose it takes, (6,)."""
-    stance: Vector
-    """Pose of the other foot meanwhile, (6,)."""
     climbs: bool
 
 
@@ -64,22 +54,22 @@ def schedule(
     Returns:
         The steps and when the motion ends, s.
     """
-    poses = dict(zip(FEET, feet, strict=True))
-    steps: list[Step] = []
-    push, time = 0.0, params.lead_in
-    for footstep in footsteps:
-        foot, stance = footstep.foot, other_foot(footstep.foot)
-        rpy = footstep.X_WF.rotation().ToRollPitchYaw().vector()
-        end: Vector = np.concatenate([footstep.X_WF.translation(), rpy])
-        climbs = abs(end[2] - poses[foot][2]) > params.climb_threshold
-        land = time + (params.climb_single_support if climbs else params.single_support)
-        steps.append(
-            Step(foot, push, time, land, poses[foot], end, poses[stance], climbs)
-        )
-        poses[foot] = end
-        push = land
-        time = land + (params.climb_double_support if climbs else params.double_support)
-    return tuple(steps), push + params.lead_out if steps else params.lead_in
+    moves = transfers(feet, footsteps)
+    if not moves:
+        return (), params.lead_in
+    climbs = [abs(m.end[2] - m.start[2]) > params.climb_threshold for m in moves]
+    after = [
+        params.climb_double_support if up else params.double_support for up in climbs
+    ]
+    single = [
+        params.climb_single_support if up else params.single_support for up in climbs
+    ]
+    times = step_times([params.lead_in, *after[:-1]], single)
+    steps = tuple(
+        Step(m.foot, m.start, m.end, m.stance, *when, up)
+        for m, when, up in zip(moves, times, climbs, strict=True)
+    )
+    return steps, steps[-1].land + params.lead_out
 
 
 def plan_motion(
@@ -108,8 +98,7 @@ def plan_motion(
     steps, end = schedule(feet, footsteps, params)
     n = round(end / params.period) + 1
     time: Vector = np.arange(n, dtype=np.float64) * params.period
-    last = {step.foot: step.end for step in steps}
-    final = np.array([last.get(foot, feet[i]) for i, foot in enumerate(FEET)])
+    final = final_feet(feet, steps)
     zmp = _zmp_reference(time, steps, feet, final, com, end, params)
     height = _com_height(time, steps, com[2], final, end, params)
     rate = np.gradient(height, params.period)
@@ -124,7 +113,7 @@ def plan_motion(
         start_time=0.0,
         period=params.period,
         footsteps=footsteps,
-        phases=_phases(steps, end),
+        phases=contact_phases(steps, end),
         contacts=contacts,
         foot_poses=poses,
         contact_lengths=lengths,
@@ -135,38 +124,6 @@ def plan_motion(
         cart_zmp=motion.com - preview.com_height / GRAVITY * motion.acceleration,
         waist=_waist(time, poses, end, params.lean if climbs else 0.0, params),
     )
-
-
-def stance_zmp(
-    pose: Vector, foot: Foot, forward: float, params: MotionPlannerParams
-) -> Vector:
-    """Where the ZMP is to be while the robot stands on one foot, p_WZmp, (3,)."""
-    left: Vector = heading(pose[5] + np.pi / 2.0)
-    inward = -left if foot == "left" else left
-    p_WZmp = pose[:3].copy()
-    p_WZmp[:2] += forward * heading(pose[5]) + params.zmp_inward * inward
-    return p_WZmp
-
-
-def middle_zmp(feet: Vector, params: MotionPlannerParams) -> Vector:
-    """Where the ZMP is to be while the robot stands on both feet, p_WZmp, (3,)."""
-    both = [
-        stance_zmp(feet[i], foot, params.zmp_forward, params)
-        for i, foot in enumerate(FEET)
-    ]
-    middle: Vector = np.mean(both, axis=0)
-    return middle
-
-
-def _phases(steps: tuple[Step, ...], end: float) -> tuple[ContactPhase, ...]:
-    phases = []
-    for step in steps:
-        phases.append(ContactPhase(step.push, step.lift, FEET, None))
-        phases.append(
-            ContactPhase(step.lift, step.land, (other_foot(step.foot),), step.foot)
-        )
-    phases.append(ContactPhase(steps[-1].land if steps else 0.0, end, FEET, None))
-    return tuple(phases)
 
 
 def _zmp_reference(
@@ -187,9 +144,7 @@ def _zmp_reference(
         point = stance_zmp(step.stance, other_foot(step.foot), forward, params)
         keys += [(step.lift, point), (step.land, point)]
     keys.append((end - 0.4 * params.lead_out, middle_zmp(final, params)))
-    times = [key[0] for key in keys]
-    points = np.array([key[1] for key in keys])
-    return np.column_stack([np.interp(time, times, points[:, i]) for i in range(3)])
+    return along_keys(time, keys)
 
 
 def _com_height(

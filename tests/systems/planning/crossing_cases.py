@@ -11,8 +11,9 @@ from diagrams.station import robot_alone
 from models.jvrc1 import JVRC1
 from systems.balance.zmp_preview import ZmpPreviewParams
 from systems.obstacle_values import KeyConfiguration, Obstacle
-from systems.planning.crossing_motion import CrossingMotion, plan_crossing
+from systems.planning.crossing_motion import plan_crossing
 from systems.planning.crossing_params import CrossingParams
+from systems.planning.crossing_report import CrossingMotion
 from systems.planning.feasibility_unit import feasibility_unit
 from systems.planning.leg_clearance import Section
 from systems.planning.motion_params import MotionPlannerParams

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from systems.planning.crossing_motion import CrossingMotion
 from systems.planning.crossing_params import CrossingParams
+from systems.planning.crossing_report import CrossingMotion
 from systems.planning.feet_adaptor import ankle_displacement
 from systems.planning.foot_trajectory_generator import FootTrajectoryParams
 from systems.planning.leg_model import LegModel

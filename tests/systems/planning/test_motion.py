@@ -10,8 +10,9 @@ from pydrake.math import RigidTransform, RollPitchYaw
 
 from models.jvrc1 import JVRC1
 from systems.balance.zmp_preview import ZmpPreviewParams
-from systems.planning.motion import middle_zmp, plan_motion, schedule, stance_zmp
+from systems.planning.motion import plan_motion, schedule
 from systems.planning.motion_params import MotionPlannerParams
+from systems.planning.step_timing import middle_zmp, stance_zmp
 from systems.ports import Vector
 from systems.values import FEET, Foot, Footstep, MotionPlan
 

@@ -1,0 +1,118 @@
+"""What every walk shares: footsteps in time, contact phases and where the ZMP rests."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from systems.planning.motion_params import MotionPlannerParams
+from systems.planning.toe_off import heading
+from systems.ports import Vector
+from systems.values import FEET, ContactPhase, Foot, Footstep, other_foot
+
+
+@dataclass(frozen=True)
+class Transfer:
+    """One footstep: which foot goes from where to where."""
+
+    foot: Foot
+    start: Vector
+    """Sole pose it leaves, (6,)."""
+    end: Vector
+    """Sole pose it takes, (6,)."""
+    stance: Vector
+    """Sole pose of the other foot meanwhile, (6,)."""
+
+
+@dataclass(frozen=True)
+class TimedStep(Transfer):
+    """One footstep in time."""
+
+    push: float
+    """When the double support before it begins, s."""
+    lift: float
+    """When the foot leaves the ground, s."""
+    land: float
+    """When it is back, s."""
+
+
+def transfers(feet: Vector, footsteps: tuple[Footstep, ...]) -> tuple[Transfer, ...]:
+    """Which foot goes from where to where.
+
+    Args:
+        feet: sole poses at the start, (2, 6), left first.
+        footsteps: where they go, in order.
+    """
+    poses = dict(zip(FEET, feet, strict=True))
+    found = []
+    for step in footsteps:
+        rpy = step.X_WF.rotation().ToRollPitchYaw().vector()
+        end: Vector = np.concatenate([step.X_WF.translation(), rpy])
+        stance = poses[other_foot(step.foot)]
+        found.append(Transfer(step.foot, poses[step.foot], end, stance))
+        poses[step.foot] = end
+    return tuple(found)
+
+
+def step_times(
+    before: Sequence[float], single: Sequence[float]
+) -> tuple[tuple[float, float, float], ...]:
+    """When each step's double support begins, its foot lifts and lands, s.
+
+    Args:
+        before: duration of the double support before each step, s.
+        single: duration of each single support, s.
+    """
+    found = []
+    push = 0.0
+    for wait, duration in zip(before, single, strict=True):
+        lift = push + wait
+        found.append((push, lift, lift + duration))
+        push = lift + duration
+    return tuple(found)
+
+
+def final_feet(feet: Vector, steps: Sequence[Transfer]) -> Vector:
+    """Where both feet are after the last step, (2, 6)."""
+    last = {step.foot: step.end for step in steps}
+    return np.array([last.get(foot, feet[i]) for i, foot in enumerate(FEET)])
+
+
+def contact_phases(steps: Sequence[TimedStep], end: float) -> tuple[ContactPhase, ...]:
+    """The contact phases of a whole motion that ends at `end`, s."""
+    phases = []
+    for step in steps:
+        phases.append(ContactPhase(step.push, step.lift, FEET, None))
+        phases.append(
+            ContactPhase(step.lift, step.land, (other_foot(step.foot),), step.foot)
+        )
+    phases.append(ContactPhase(steps[-1].land if steps else 0.0, end, FEET, None))
+    return tuple(phases)
+
+
+def stance_zmp(
+    pose: Vector, foot: Foot, forward: float, params: MotionPlannerParams
+) -> Vector:
+    """Where the ZMP is to be while the robot stands on one foot, p_WZmp, (3,)."""
+    left: Vector = heading(pose[5] + np.pi / 2.0)
+    inward = -left if foot == "left" else left
+    p_WZmp = pose[:3].copy()
+    p_WZmp[:2] += forward * heading(pose[5]) + params.zmp_inward * inward
+    return p_WZmp
+
+
+def middle_zmp(feet: Vector, params: MotionPlannerParams) -> Vector:
+    """Where the ZMP is to be while the robot stands on both feet, p_WZmp, (3,)."""
+    both = [
+        stance_zmp(feet[i], foot, params.zmp_forward, params)
+        for i, foot in enumerate(FEET)
+    ]
+    middle: Vector = np.mean(both, axis=0)
+    return middle
+
+
+def along_keys(time: Vector, keys: Sequence[tuple[float, Vector]]) -> Vector:
+    """Points at given times on the straight lines between keys (s, m), (n, 3)."""
+    times = [when for when, _ in keys]
+    points = np.array([point for _, point in keys])
+    return np.column_stack([np.interp(time, times, column) for column in points.T])
