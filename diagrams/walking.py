@@ -154,7 +154,8 @@ def add_walking(
     builder.Connect(com_reference, tracker.GetInputPort("com_reference"))
     for port in ("foot_references", "contacts"):
         builder.Connect(landing.GetOutputPort(port), tracker.GetInputPort(port))
-    builder.Connect(player.GetOutputPort("waist"), tracker.GetInputPort("waist"))
+    for port in ("waist", "arms"):
+        builder.Connect(player.GetOutputPort(port), tracker.GetInputPort(port))
     builder.Connect(
         tracker.GetOutputPort("joint_references"),
         station.plant.get_desired_state_input_port(station.instance),

@@ -73,6 +73,7 @@ JVRC1 = RobotModel(
     leg_joints=_LEGS,
     waist_joints=_WAIST,
     posture=_POSTURE,
+    swing_joints=_sides(("SHOULDER_P",)),
     working_range={"R_KNEE": (0.2, 2.4), "L_KNEE": (0.2, 2.4)},
     gains=_GAINS,
     lidar_position=(0.15, 0.0, 0.12),

@@ -65,6 +65,8 @@ class RobotModel:
     waist_joints: tuple[str, ...]
     posture: Mapping[str, float]
     """Standing posture with bent knees, rad; joints that are not named are at zero."""
+    swing_joints: tuple[str, ...]
+    """The joints that pitch the arms; positive to the rear."""
     working_range: Mapping[str, tuple[float, float]]
     """Positions that are planned within, rad, where the joint's limits allow more: a
     knee that never straightens stays away from the leg's singularity."""

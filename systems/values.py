@@ -216,6 +216,9 @@ class MotionPlan(Value):
     """ZMP of the cart-table of constant height that moves like it, (n, 2), m."""
     waist: Vector
     """Pelvis (roll, pitch, yaw) in W, (n, 3), rad."""
+    arms: Vector = field(default_factory=lambda: np.zeros(0))
+    """How far both shoulders pitch from the posture, (n,), rad, positive to the rear;
+    empty where they rest."""
     reason: str = ""
     """Why the footsteps cannot be carried out, in one line; the plan stands then."""
 

@@ -41,6 +41,15 @@ def waist_reference(plan: MotionPlan, row: int) -> Vector:
     return np.concatenate([rpy, (following - rpy) / plan.period])
 
 
+def arm_reference(plan: MotionPlan, row: int) -> Vector:
+    """Pitch of the shoulders from their posture and its rate at a row, (2,)."""
+    if not len(plan.arms):
+        return np.zeros(2)
+    pitch = plan.arms[row]
+    following = plan.arms[min(row + 1, len(plan.zmp) - 1)]
+    return np.array([pitch, (following - pitch) / plan.period])
+
+
 class MotionPlayer(LeafSystem):
     """Publishes what a motion plan wants now.
 
@@ -56,6 +65,7 @@ class MotionPlayer(LeafSystem):
         - zmp
         - zmp_preview
         - waist
+        - arms
         - plan_start
 
     - `motion_plan`: abstract MotionPlan; before its start its first row is played,
@@ -69,6 +79,8 @@ class MotionPlayer(LeafSystem):
     - `zmp_preview`: ZMP of the cart from now to `horizon` ticks ahead, first all x,
       then all y, (2 (horizon + 1),), m.
     - `waist`: pelvis (roll, pitch, yaw) in W and their rates, (6,), rad, rad/s.
+    - `arms`: how far both shoulders pitch to the rear of their posture and the rate,
+      (2,), rad, rad/s.
     - `plan_start`: start time of the plan, (1,), s; a new value is a new plan.
     """
 
@@ -111,6 +123,7 @@ class MotionPlayer(LeafSystem):
                 lambda plan, row: zmp_preview(plan, row, horizon),
             ),
             ("waist", 6, waist_reference),
+            ("arms", 2, arm_reference),
             ("plan_start", 1, lambda plan, row: np.array([plan.start_time])),
         )
         for name, size, sample in samplers:

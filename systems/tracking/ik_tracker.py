@@ -22,6 +22,7 @@ class IkTracker(LeafSystem):
         - foot_references
         - contacts
         - waist
+        - arms
         output_ports:
         - positions
         - velocities
@@ -34,6 +35,8 @@ class IkTracker(LeafSystem):
     - `contacts`: feet on the ground, left and right, 0 or 1, then two numbers that are
       not used, (4,).
     - `waist`: pelvis (roll, pitch, yaw) in W and their rates, (6,), rad, rad/s.
+    - `arms`: how far both shoulders are to pitch to the rear of their posture and the
+      rate, (2,), rad, rad/s; at the posture where nothing is connected.
     - `positions`: q of the reference motion, (nq,).
     - `velocities`: v, (nv,).
     - `accelerations`: how v changed over the last tick, (nv,).
@@ -80,6 +83,7 @@ class IkTracker(LeafSystem):
         self._feet = self.DeclareVectorInputPort("foot_references", 24)
         self._contacts = self.DeclareVectorInputPort("contacts", 4)
         self._waist = self.DeclareVectorInputPort("waist", 6)
+        self._arms = self.DeclareVectorInputPort("arms", 2)
         self._scratch = declare_scratch_context(self, plant)
         ticket = {self.discrete_state_ticket(self._state)}
         for name, size, calc in (
@@ -118,6 +122,9 @@ class IkTracker(LeafSystem):
         com = eval_vector(self._com, context)
         feet = eval_vector(self._feet, context).reshape(2, 2, 6)
         waist = eval_vector(self._waist, context)
+        swing = np.zeros(2)
+        if self._arms.HasValue(context):
+            swing = eval_vector(self._arms, context)
         target = IkTarget(
             com=com[:3],
             com_velocity=com[3:6],
@@ -126,6 +133,8 @@ class IkTracker(LeafSystem):
             stance=eval_vector(self._contacts, context)[:2],
             waist=waist[:3],
             waist_rate=waist[3:],
+            arms=float(swing[0]),
+            arms_rate=float(swing[1]),
         )
         plant_context = self._scratch(context)
         self._plant.SetPositions(plant_context, q)

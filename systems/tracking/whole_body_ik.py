@@ -92,6 +92,10 @@ class IkTarget:
     """Pelvis (roll, pitch, yaw), (3,), rad."""
     waist_rate: Vector
     """Its rate, (3,), rad/s."""
+    arms: float = 0.0
+    """How far both shoulders pitch to the rear of their posture, rad."""
+    arms_rate: float = 0.0
+    """Its rate, rad/s."""
 
 
 def rotation_error(wanted: Vector, R_WB: RotationMatrix) -> Vector:
@@ -142,6 +146,8 @@ class WholeBodyIk:
                 index = plant.GetJointByName(name).velocity_start()
                 self._posture_weight[index] = params.leg_weight
         self.posture = default_posture(plant, robot)
+        swing = [plant.GetJointByName(name) for name in robot.swing_joints]
+        self._swing = np.array([joint.velocity_start() for joint in swing])
 
     def solve(self, context: Context, target: IkTarget) -> tuple[Vector, bool]:
         """The generalised velocity of this tick.
@@ -174,9 +180,9 @@ class WholeBodyIk:
         nv = len(self._posture_weight)
         hessian = np.diag(self._posture_weight + params.damping)
         gradient = np.zeros(nv)
-        gradient[6:] = -self._posture_weight[6:] * (
-            params.posture_gain * (self.posture[7:] - q[7:])
-        )
+        sought = params.posture_gain * (self.posture[7:] - q[7:])
+        sought[self._swing - 6] += target.arms_rate + params.posture_gain * target.arms
+        gradient[6:] = -self._posture_weight[6:] * sought
         for J, v, weight in (
             (J_com, v_com, [params.com_weight] * 2 + [params.height_weight]),
             (

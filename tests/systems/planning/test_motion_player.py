@@ -1,5 +1,7 @@
 """Playing a motion plan: the row that is due, its rates, and its ends."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from pydrake.common.value import AbstractValue
@@ -34,6 +36,7 @@ def numbered(start_time: float = 2.0) -> MotionPlan:
         zmp=numbers(ROWS, 3),
         cart_zmp=numbers(ROWS, 2),
         waist=numbers(ROWS, 3) ** 2,
+        arms=numbers(ROWS) ** 2,
     )
 
 
@@ -104,6 +107,16 @@ def test_rates_are_towards_the_following_row() -> None:
     np.testing.assert_allclose(waist[3:], (PLAN.waist[3] - PLAN.waist[2]) / 0.005)
     assert not output(5.0, "foot_references")[12:].any()
     assert not output(5.0, "waist")[3:].any()
+
+
+def test_arms_swing_as_planned_and_rest_where_nothing_is_planned() -> None:
+    """Pitch and its rate; a plan without them leaves the arms at their posture."""
+    arms = output(2.011, "arms")
+    assert arms[0] == PLAN.arms[2]
+    assert arms[1] == pytest.approx((PLAN.arms[3] - PLAN.arms[2]) / 0.005)
+    assert output(5.0, "arms")[1] == 0.0
+    system, context = at(2.011, replace(PLAN, arms=np.zeros(0)))
+    assert not eval_vector(system.GetOutputPort("arms"), context).any()
 
 
 def test_preview_looks_ahead_and_holds_the_end() -> None:

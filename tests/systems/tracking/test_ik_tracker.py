@@ -85,6 +85,24 @@ def test_joint_references_are_in_the_order_of_the_actuators(standing) -> None:
     assert np.abs(values["joint_references"][len(joints) :]).max() > 0.01
 
 
+def test_the_shoulders_pitch_to_the_rear_with_the_arms_reference(standing) -> None:
+    """By rate and by where they are wanted; the CoM stays."""
+    system, context = make(standing)
+    shoulder = standing.plant.GetJointByName(JVRC1.swing_joints[0]).position_start()
+    simulator = Simulator(system, context)
+    for tick in range(200):
+        pitch = 0.3 * min(0.01 * tick, 1.0)
+        rate = 0.6 if tick < 100 else 0.0
+        system.GetInputPort("arms").FixValue(context, [pitch, rate])
+        simulator.AdvanceTo(0.005 * tick + 0.001)
+    q = outputs(system, context)["positions"]
+    assert q[shoulder] == pytest.approx(standing.q[shoulder] + 0.3, abs=0.03)
+    at = standing.context()
+    standing.plant.SetPositions(at, q)
+    com = standing.plant.CalcCenterOfMassPositionInWorld(at)
+    np.testing.assert_allclose(com, standing.target.com, atol=1e-3)
+
+
 @pytest.mark.parametrize("stance", [(0.0, 1.0), (1.0, 0.0), (1.0, 1.0)])
 def test_contacts_say_which_feet_are_held(standing, stance) -> None:
     """And the feet follow their rates."""
