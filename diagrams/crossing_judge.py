@@ -149,6 +149,7 @@ def planning_summary(reports: Sequence[CrossingReport]) -> dict[str, Json] | Non
     """What the planner says of its crossings, the worst of each figure; None if none.
 
     ZMP errors are (x, y), m, over phases 1 to 3, of the multibody ZMP to its reference.
+    The static margin and torque are those of a quasi-static plan, None of a dynamic one.
     """
     reports = [report for report in reports if report.obstacles]
     if not reports:
@@ -156,10 +157,15 @@ def planning_summary(reports: Sequence[CrossingReport]) -> dict[str, Json] | Non
     before = np.max([report.zmp_error_before for report in reports], axis=0)
     after = np.max([report.zmp_error_after for report in reports], axis=0)
     times = [sum(ms for _, ms in report.planning_ms) for report in reports]
+    balances = [report.balance for report in reports if report.balance]
     return {
         "zmp_error_after_cwtg1_m": to_json(np.round(before, 5)),
         "zmp_error_after_cwtg2_m": to_json(np.round(after, 5)),
         "planned_gap_m": round(min(report.gap for report in reports), 5),
+        "static_margin_m": min((round(b.margin, 5) for b in balances), default=None),
+        "static_torque_fraction": max(
+            (round(b.torque_share, 3) for b in balances), default=None
+        ),
         "planning_ms": round(max(times), 1),
         "keys": [to_json(key) for report in reports for key in report.keys],
         "repairs": [to_json(report.repairs) for report in reports],

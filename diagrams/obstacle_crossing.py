@@ -81,6 +81,7 @@ def build_obstacle_crossing(
             params.zmp_preview,
             planning_body(robot, station.model),
             stand.plan,
+            "quasi_static" if scenario.task.mode == "quasi_static" else "dynamic",
         ),
     )
     builder.Connect(

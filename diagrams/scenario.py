@@ -201,7 +201,7 @@ class Scenario:
             self._check_width(stairs, model)
         elif self.task.kind == "stair_climbing":
             raise ValueError(f"scene.staircase: the task {self.task.kind} needs one")
-        if self.task.mode != "dynamic" and self.task.kind != "stair_climbing":
+        if self.task.mode != "dynamic" and self.task.kind == "room_crossing":
             raise ValueError(
                 f"task.mode: {self.task.kind} is only done dynamic, "
                 f"got {self.task.mode!r}"

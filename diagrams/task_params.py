@@ -50,7 +50,7 @@ class TaskParams:
     the floor to `goal`; "obstacle_crossing", the same over what lies in the way."""
     mode: str = "dynamic"
     """How: "dynamic", with a moving ZMP under a stabiliser; "quasi_static", so slowly
-    that the ZMP stays near a CoM that is always over the stance; stairs only."""
+    that the ZMP stays near a CoM that is always over the stance; not in a room."""
     steps_between_scans: int = 2
     """How many treads are climbed before the robot stands and scans again."""
     goal: list[float] = field(default_factory=lambda: [2.5, 0.0, 0.0])

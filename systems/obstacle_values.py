@@ -55,6 +55,11 @@ class KeyConfiguration(Value):
     """Height of the waist (the hips) above the ground, m."""
     front: float
     """Rear ankle to the front face of the obstacle, m."""
+    X_end: float | None = None
+    """Rear ankle to waist as phase 2 ends, m: a quasi-static one takes the CoM from the
+    rear foot (X_hds, Z_hds) to the front one; None where the waist hardly moves."""
+    Z_end: float | None = None
+    """Height of the waist then, m."""
 
 
 @dataclass(frozen=True, eq=False)

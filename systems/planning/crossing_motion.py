@@ -5,7 +5,6 @@ III); FU has been asked before, when the footsteps were placed.
 """
 
 import dataclasses
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -29,17 +28,19 @@ from systems.planning.crossing_feet import (
     section_of,
     yielding_path,
 )
-from systems.planning.crossing_params import CrossingParams
+from systems.planning.crossing_params import CrossingParams, Mode, slowed
 from systems.planning.crossing_posture import arm_swing, waist_height, waist_rpy
 from systems.planning.crossing_report import (
     BodyCurves,
     CrossingMotion,
     CrossingReport,
+    StaticBalance,
 )
 from systems.planning.crossing_timing import CrossingStep, time_steps, zmp_reference
 from systems.planning.feet_adaptor import LegPoses, Repairs, adapt, leg_gaps
 from systems.planning.leg_clearance import Section
 from systems.planning.motion_params import MotionPlannerParams
+from systems.planning.quasi_static_check import least_margin, worst_torque
 from systems.planning.step_timing import contact_phases
 from systems.planning.whole_body_plan import (
     BodyMotion,
@@ -48,8 +49,10 @@ from systems.planning.whole_body_plan import (
     body_zmp,
 )
 from systems.ports import Vector
-from systems.values import FEET, Footstep
+from systems.values import FEET, ContactPhase, Footstep
 
+TORQUE_TICK = 0.1
+"""Between the postures of a quasi-static crossing whose torques are looked at, s."""
 Index: TypeAlias = np.ndarray[Any, np.dtype[np.intp]]
 
 
@@ -64,6 +67,7 @@ def plan_crossing(
     preview: ZmpPreviewParams,
     body: WholeBody,
     context: Context,
+    mode: Mode = "dynamic",
 ) -> CrossingMotion:
     """Plans the motion from standing to standing, beginning at time 0.
 
@@ -79,15 +83,19 @@ def plan_crossing(
         preview: weights of the ZMP tracking and the cart's height.
         body: the robot.
         context: scratch context of its plant.
+        mode: in "quasi_static" everything goes at the pace of `crossing.quasi_static`.
 
     Returns:
         The motion and how well it does.
     """
+    if mode == "quasi_static":
+        walking, crossing = slowed(walking, crossing)
     steps, end = time_steps(feet, footsteps, walking, crossing)
     n = round(end / walking.period) + 1
     time: Vector = np.arange(n, dtype=np.float64) * walking.period
-    zmp = zmp_reference(time, steps, feet, com, end, walking, crossing)
-    rpy = waist_rpy(time, steps, feet, crossing)
+    zmp = zmp_reference(time, steps, feet, com, end, walking, crossing, mode)
+    rpy = waist_rpy(time, steps, feet, crossing, mode)
+    arms = arm_swing(time, steps, crossing, mode)
     course = _Course(
         time,
         steps,
@@ -95,6 +103,7 @@ def plan_crossing(
         com,
         zmp,
         rpy,
+        arms,
         _waist_over(body, context, com, feet, rpy[0]),
         obstacles,
         keys,
@@ -103,6 +112,7 @@ def plan_crossing(
         preview,
         body,
         context,
+        mode,
     )
     repairs = course.repairs()
     moved, height, factor = course.single_mass(repairs)
@@ -120,21 +130,28 @@ def plan_crossing(
     for step in steps:
         lift, land = (round(t / walking.period) for t in (step.lift, step.land))
         contacts[lift:land, FEET.index(step.foot)] = 0.0
+    report = course.report(motion, zmps, repairs)
+    com = np.column_stack([moved.com, spline(time)])
+    poses, phases = course.soles(repairs, time), contact_phases(steps, end)
+    if mode == "quasi_static":
+        balance = course.static_balance(motion, com, poses, contacts, phases)
+        report = dataclasses.replace(report, balance=balance)
     return CrossingMotion(
-        report=course.report(motion, zmps, repairs),
+        report=report,
         start_time=0.0,
         period=walking.period,
         footsteps=footsteps,
-        phases=contact_phases(steps, end),
+        phases=phases,
         contacts=contacts,
-        foot_poses=course.soles(repairs, time),
+        foot_poses=poses,
         contact_lengths=np.full((n, 2), body.robot.sole.length),
-        com=np.column_stack([moved.com, spline(time)]),
+        com=com,
         com_velocity=np.column_stack([moved.velocity, spline(time, 1)]),
         com_acceleration=np.column_stack([moved.acceleration, spline(time, 2)]),
         zmp=zmp,
         cart_zmp=moved.com - preview.com_height / GRAVITY * moved.acceleration,
         waist=rpy,
+        arms=arms,
     )
 
 
@@ -148,6 +165,7 @@ class _Course:
     com: Vector
     zmp: Vector
     rpy: Vector
+    arms: Vector
     start_waist: Vector
     obstacles: tuple[Obstacle, ...]
     keys: tuple[KeyConfiguration, ...]
@@ -156,6 +174,7 @@ class _Course:
     preview: ZmpPreviewParams
     body: WholeBody
     context: Context
+    mode: Mode
 
     @property
     def ground(self) -> float:
@@ -212,11 +231,10 @@ class _Course:
         guess: Vector | None = None,
     ) -> BodyMotion:
         """IK and UBMG at some ticks."""
-        arms: Mapping[str, Vector] = arm_swing(
-            self.time[rows], self.steps, self.body.robot, self.crossing
-        )
+        rounds = 1
         if guess is None:
             guess = np.tile(self.start_waist[:2] - self.com[:2], (len(rows), 1))
+            rounds = 2 if self.mode == "quasi_static" else 1
         return body_motion(
             self.body,
             self.context,
@@ -224,9 +242,9 @@ class _Course:
             height[rows],
             self.rpy[rows],
             self.soles(repairs, self.time[rows]),
-            arms,
+            self.arms[rows],
             guess,
-            rounds=1,
+            rounds,
         )
 
     def multibody_zmp(self, motion: BodyMotion) -> Vector:
@@ -320,6 +338,32 @@ class _Course:
             curves=BodyCurves(time, motion.waist, zmps[0], zmps[-1]),
         )
 
+    def static_balance(
+        self,
+        motion: BodyMotion,
+        com: Vector,
+        poses: Vector,
+        contacts: Vector,
+        phases: tuple[ContactPhase, ...],
+    ) -> StaticBalance:
+        """What a slow motion keeps; torques at a few moments of the crossings."""
+        quasi = self.crossing.quasi_static
+        looked = np.flatnonzero(crossing_rows(self.time[self.rows], self.steps))
+        looked = looked[:: max(1, round(TORQUE_TICK / self.crossing.sampling))]
+        at = self.rows[looked]
+        share, joint, row = worst_torque(
+            self.body, self.context, motion.q[looked], poses[at], contacts[at]
+        )
+        margin = least_margin(
+            phases,
+            com,
+            poses,
+            self.walking.period,
+            self.body.robot.sole,
+            quasi.friction,
+        )
+        return StaticBalance(margin, share, joint, float(self.time[at[row]]))
+
     def _zmp_error(self, p_MB: Vector) -> tuple[float, float]:
         """Largest ZMP error from phase 1 to 3 of any crossing, x and y of W, m."""
         inside = crossing_rows(self.time[self.rows], self.steps)
@@ -349,7 +393,7 @@ def _waist_over(
             np.array([height]),
             rpy[None],
             feet[None],
-            {},
+            0.0,
             rounds=2,
         )
         height += com[2] - found.com[0, 2]

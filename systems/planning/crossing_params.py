@@ -1,10 +1,16 @@
 """Parameters of a crossing: its timing, shape and margins."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from typing import Literal, TypeAlias
 
 from models.validation import require_at_least, require_positive
 from systems.planning.feasibility_unit import FeasibilityParams
 from systems.planning.foot_trajectory_generator import FootTrajectoryParams
+from systems.planning.motion_params import MotionPlannerParams
+from systems.planning.quasi_static_unit import QuasiStaticCrossingParams
+
+Mode: TypeAlias = Literal["dynamic", "quasi_static"]
+"""How a robot crosses: with a moving ZMP, or with the CoM always over what stands."""
 
 
 @dataclass(kw_only=True)
@@ -15,6 +21,10 @@ class CrossingParams:
     """Of the feasibility unit."""
     feet: FootTrajectoryParams = field(default_factory=FootTrajectoryParams)
     """Of the feet trajectory generator."""
+    quasi_static: QuasiStaticCrossingParams = field(
+        default_factory=QuasiStaticCrossingParams
+    )
+    """What is different in a quasi-static crossing."""
     single_support: float = 1.3
     """Phases 1 and 3, s (obstacle paper, Sec. V: 1.5)."""
     double_support: float = 0.20
@@ -61,6 +71,7 @@ class CrossingParams:
         """
         self.feasibility.validate()
         self.feet.validate()
+        self.quasi_static.validate()
         for name in ("single_support", "double_support", "sampling"):
             require_positive(name, getattr(self, name), "s")
         for name in (
@@ -74,3 +85,28 @@ class CrossingParams:
             require_at_least(name, getattr(self, name), 0.0)
         require_at_least("filter_stages", self.filter_stages, 0)
         require_at_least("max_repairs", self.max_repairs, 0)
+
+
+def slowed(
+    walking: MotionPlannerParams, crossing: CrossingParams
+) -> tuple[MotionPlannerParams, CrossingParams]:
+    """The same walk and crossing at the pace of `crossing.quasi_static`."""
+    quasi = crossing.quasi_static
+    return replace(
+        walking,
+        single_support=quasi.walk_single_support,
+        double_support=quasi.walk_double_support,
+        lead_in=quasi.walk_double_support,
+        lead_out=quasi.walk_double_support,
+    ), replace(
+        crossing,
+        single_support=quasi.single_support,
+        double_support=quasi.double_support,
+        zmp_forward=quasi.com_end,
+        zmp_rolling=quasi.com_begin - quasi.com_end,
+        lean=quasi.lean,
+        arm_swing=-quasi.arms,
+        waist_yaw=0.0,
+        knee_margin=quasi.knee_margin,
+        sampling=quasi.sampling,
+    )

@@ -10,7 +10,7 @@ from pydrake.common.value import AbstractValue
 from pydrake.systems.framework import Context, LeafSystem, ValueProducer
 
 from systems.balance.zmp_preview import ZmpPreviewParams
-from systems.obstacle_values import ObstacleMap
+from systems.obstacle_values import Feasibility, Obstacle, ObstacleMap
 from systems.planning.crossing_feet import section_of
 from systems.planning.crossing_footsteps import (
     CrossingSteps,
@@ -18,11 +18,13 @@ from systems.planning.crossing_footsteps import (
     plan_crossing_steps,
 )
 from systems.planning.crossing_motion import plan_crossing
-from systems.planning.crossing_params import CrossingParams
+from systems.planning.crossing_params import CrossingParams, Mode
 from systems.planning.crossing_report import CrossingReport
 from systems.planning.feasibility_unit import feasibility_unit
 from systems.planning.footstep_params import FootstepPlannerParams
 from systems.planning.motion_params import MotionPlannerParams
+from systems.planning.quasi_static_check import balance_of
+from systems.planning.quasi_static_unit import quasi_static_unit
 from systems.planning.whole_body_plan import WholeBody, waist_above_com
 from systems.plant_cache import declare_scratch_context
 from systems.ports import Vector, eval_abstract, eval_vector
@@ -73,6 +75,7 @@ class CrossingPlanner(LeafSystem):
         preview: ZmpPreviewParams,
         body: WholeBody,
         standing: MotionPlan,
+        mode: Mode = "dynamic",
     ) -> None:
         """Declares the ports.
 
@@ -83,6 +86,7 @@ class CrossingPlanner(LeafSystem):
             preview: weights of the ZMP tracking.
             body: the robot alone.
             standing: a plan that stands.
+            mode: how the robot is to cross.
 
         Raises:
             ValueError: a parameter is out of range.
@@ -93,6 +97,7 @@ class CrossingPlanner(LeafSystem):
         self._footsteps, self._walking = footsteps, walking
         self._crossing, self._preview, self._body = crossing, preview, body
         self._standing = standing
+        self._mode: Mode = mode
         self._waist = walking.com_height + waist_above_com(body)
         self._map = self.DeclareAbstractInputPort(
             "obstacle_map", AbstractValue.Make(ObstacleMap())
@@ -151,15 +156,7 @@ class CrossingPlanner(LeafSystem):
         start = perf_counter()
         sole = self._body.robot.sole
         ahead = in_the_way(seen.obstacles, feet[:, :2].mean(axis=0), goal[:2], sole)
-        answers = tuple(
-            feasibility_unit(
-                section_of(obstacle),
-                self._waist,
-                self._body.leg,
-                self._crossing.feasibility,
-            )
-            for obstacle in ahead
-        )
+        answers = self._feasibilities(ahead, context)
         steps = plan_crossing_steps(feet, goal, ahead, answers, sole, self._footsteps)
         asked = perf_counter()
         if steps.plan.status != "planned":
@@ -175,6 +172,7 @@ class CrossingPlanner(LeafSystem):
             self._preview,
             self._body,
             self._scratch(context),
+            self._mode,
         )
         done = perf_counter()
         times = (("FU", 1e3 * (asked - start)), ("FTG to FTA", 1e3 * (done - asked)))
@@ -185,6 +183,24 @@ class CrossingPlanner(LeafSystem):
             plan = FootstepPlan((), "infeasible", refusal)
             return CrossingPlan(plan, self._standing)
         return CrossingPlan(steps.plan, motion)
+
+    def _feasibilities(
+        self, ahead: tuple[Obstacle, ...], context: Context
+    ) -> tuple[Feasibility, ...]:
+        """FU for each obstacle."""
+        leg, params = self._body.leg, self._crossing.feasibility
+        sections = [section_of(obstacle) for obstacle in ahead]
+        if self._mode == "dynamic":
+            return tuple(
+                feasibility_unit(section, self._waist, leg, params)
+                for section in sections
+            )
+        quasi = self._crossing.quasi_static
+        balance = balance_of(self._body, self._scratch(context), quasi)
+        return tuple(
+            quasi_static_unit(section, self._waist, leg, params, quasi, balance)
+            for section in sections
+        )
 
     def _refusal(self, steps: CrossingSteps, report: CrossingReport) -> str:
         """Why the motion is not to be carried out; empty where it is."""
@@ -199,4 +215,17 @@ class CrossingPlanner(LeafSystem):
             )
         if report.short > self._crossing.most_short:
             return f"{what}: a leg is {1e3 * report.short:.0f} mm too short"
+        balance, quasi = report.balance, self._crossing.quasi_static
+        if balance is None:
+            return ""
+        if balance.margin < 0.5 * quasi.margin:
+            return (
+                f"{what}: Eq. 7: the CoM comes within {1e3 * balance.margin:.0f} mm of "
+                f"the support's edge, less than {500.0 * quasi.margin:.0f} mm"
+            )
+        if balance.torque_share > quasi.torque_share:
+            return (
+                f"{what}: {balance.joint} takes {balance.torque_share:.2f} of its "
+                f"effort limit, more than {quasi.torque_share:.2f}"
+            )
         return ""

@@ -6,9 +6,8 @@ paper, Sec. III-C and III-D).
 
 import numpy as np
 
-from models.robot import RobotModel
 from systems.obstacle_values import KeyConfiguration
-from systems.planning.crossing_params import CrossingParams
+from systems.planning.crossing_params import CrossingParams, Mode
 from systems.planning.crossing_timing import CrossingStep
 from systems.planning.feet_adaptor import Repairs
 from systems.ports import Vector
@@ -28,14 +27,29 @@ def share_of(step: CrossingStep, time: Vector) -> Vector:
     return share
 
 
-def straddling(time: Vector, steps: tuple[CrossingStep, ...]) -> Vector:
-    """0 in walking, 1 in phase 2: raised in phase 1, lowered in phase 3, (n,)."""
+def straddling(
+    time: Vector, steps: tuple[CrossingStep, ...], mode: Mode = "dynamic"
+) -> Vector:
+    """0 in walking, 1 when phase 3 begins and lowered in it, (n,).
+
+    It is raised in phase 1; in "quasi_static" in phase 2, while both feet carry.
+    """
     total = np.zeros(len(time))
     for step in steps:
-        if step.obstacle >= 0:
-            blend = third_order(share_of(step, time))
-            total += blend if step.leads else -blend
+        if step.obstacle < 0:
+            continue
+        if not step.leads:
+            total -= third_order(share_of(step, time))
+            if mode == "quasi_static":
+                total += shift_over(step, time)
+        elif mode == "dynamic":
+            total += third_order(share_of(step, time))
     return total
+
+
+def shift_over(step: CrossingStep, time: Vector) -> Vector:
+    """0 before a step's double support, 1 after it, (n,)."""
+    return third_order((time - step.push) / (step.lift - step.push))
 
 
 def waist_height(
@@ -48,6 +62,8 @@ def waist_height(
     crossing: CrossingParams,
 ) -> Vector:
     """From walking height to Z_hds in phase 1 and back in phase 3, (n,), m.
+
+    Where phase 2 has an end of its own, to Z_end in it.
 
     Args:
         time: (n,), s.
@@ -62,11 +78,15 @@ def waist_height(
     for step in steps:
         if step.obstacle < 0:
             continue
-        low = ground + keys[step.obstacle].Z_hds - repairs.lowered - walking
-        u = share_of(step, time)
+        key, u = keys[step.obstacle], share_of(step, time)
+        low = ground + key.Z_hds - repairs.lowered - walking
         # High while the foot is folded over the obstacle, low while the legs straddle.
-        down = third_order(1.0 + (u - 1.0) / crossing.waist_share)
-        height += low * (down if step.leads else -third_order(u / crossing.waist_share))
+        if step.leads:
+            height += low * third_order(1.0 + (u - 1.0) / crossing.waist_share)
+        else:
+            last = low + (0.0 if key.Z_end is None else key.Z_end - key.Z_hds)
+            height += (last - low) * shift_over(step, time)
+            height -= last * third_order(u / crossing.waist_share)
         if repairs.raised > 0.0:
             middle = np.clip(u, 0.0, 1.0)
             height += repairs.raised * 16.0 * middle**2 * (1.0 - middle) ** 2
@@ -78,6 +98,7 @@ def waist_rpy(
     steps: tuple[CrossingStep, ...],
     feet: Vector,
     crossing: CrossingParams,
+    mode: Mode = "dynamic",
 ) -> Vector:
     """Yaw midway between the feet, and what a crossing adds (Sec. III-C3), (n, 3).
 
@@ -86,13 +107,14 @@ def waist_rpy(
         steps: of the motion.
         feet: sole poses at its start, (2, 6).
         crossing: how far the pelvis leans and turns.
+        mode: see `straddling`.
     """
     yaws = np.tile(feet[:, 5], (len(time), 1))
     for step in steps:
         turn = (step.end[5] - step.start[5] + np.pi) % (2.0 * np.pi) - np.pi
         yaws[:, FEET.index(step.foot)] += turn * third_order(share_of(step, time))
     rpy = np.zeros((len(time), 3))
-    rpy[:, 1] = crossing.lean * straddling(time, steps)
+    rpy[:, 1] = crossing.lean * straddling(time, steps, mode)
     rpy[:, 2] = yaws.mean(axis=1)
     for step in steps:
         if step.obstacle >= 0:
@@ -110,22 +132,15 @@ def waist_rpy(
 def arm_swing(
     time: Vector,
     steps: tuple[CrossingStep, ...],
-    robot: RobotModel,
     crossing: CrossingParams,
-) -> dict[str, Vector]:
-    """Shoulders that pitch back while the first foot crosses (Sec. III-D), (n,) each.
+    mode: Mode = "dynamic",
+) -> Vector:
+    """How far the shoulders pitch to the rear while the robot crosses, (n,), rad.
 
     Args:
         time: (n,), s.
         steps: of the motion.
-        robot: its posture.
-        crossing: how far they pitch.
+        crossing: how far they pitch (Sec. III-D).
+        mode: see `straddling`.
     """
-    if crossing.arm_swing == 0.0:
-        return {}
-    shape = straddling(time, steps)
-    return {
-        name: robot.posture[name] + crossing.arm_swing * shape
-        for name in robot.posture
-        if name.endswith("SHOULDER_P")
-    }
+    return crossing.arm_swing * straddling(time, steps, mode)

@@ -23,6 +23,20 @@ class BodyCurves(Value):
 
 
 @dataclass(frozen=True, eq=False)
+class StaticBalance(Value):
+    """What a quasi-static motion keeps and what standing in it takes."""
+
+    margin: float
+    """Least signed distance of the CoM to the edge of what it stands on, m."""
+    torque_share: float
+    """Largest share of a joint's effort limit, while the robot crosses."""
+    joint: str
+    """Which joint's."""
+    time: float
+    """When, s after the motion's start."""
+
+
+@dataclass(frozen=True, eq=False)
 class CrossingReport(Value):
     """How well a planned motion keeps what it is to keep."""
 
@@ -45,6 +59,8 @@ class CrossingReport(Value):
     """When phase 1 begins and phase 3 ends over each, s after the motion's start."""
     planning_ms: tuple[tuple[str, float], ...] = ()
     """Wall time of FU and of FTG to FTA, ms."""
+    balance: StaticBalance | None = None
+    """Of a quasi-static motion; None of a dynamic one."""
     curves: BodyCurves | None = None
     """What the figures of a crossing show; None where nothing was planned."""
 

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from systems.planning.crossing_params import CrossingParams
+from systems.planning.crossing_params import CrossingParams, Mode
 from systems.planning.motion_params import MotionPlannerParams
 from systems.planning.step_timing import (
     TimedStep,
@@ -76,17 +76,32 @@ def zmp_reference(
     end: float,
     walking: MotionPlannerParams,
     crossing: CrossingParams,
+    mode: Mode = "dynamic",
 ) -> Vector:
-    """ZMP_des(t): rests on the stance foot, moves over in double support, (n, 3), m."""
+    """ZMP_des(t): rests on the stance foot, moves over in double support, (n, 3), m.
+
+    Args:
+        time: (n,), s.
+        steps: of the motion.
+        feet: sole poses at its start, (2, 6).
+        com: p_WCom there, (3,), m.
+        end: of the motion, s.
+        walking: where it rests on free ground.
+        crossing: where it rests in phases 1 and 3.
+        mode: in "quasi_static" it goes gently and is there before a foot lifts, for
+            the CoM is to go with it.
+    """
+    rest = crossing.quasi_static.rest if mode == "quasi_static" else 0.0
     first = middle_zmp(feet, walking)
     first[:2] = com[:2]
     keys = [(0.0, first), (0.3 * walking.lead_in, first)]
     for step in steps:
         stance = other_foot(step.foot)
         ahead = crossing.zmp_forward if step.obstacle >= 0 else walking.zmp_forward
-        keys.append((step.lift, stance_zmp(step.stance, stance, ahead, walking)))
+        over = step.lift - rest
+        keys.append((over, stance_zmp(step.stance, stance, ahead, walking)))
         ahead += crossing.zmp_rolling if step.leads else 0.0
         keys.append((step.land, stance_zmp(step.stance, stance, ahead, walking)))
     final = middle_zmp(final_feet(feet, steps), walking)
     keys.append((end - 0.4 * walking.lead_out, final))
-    return along_keys(time, keys)
+    return along_keys(time, keys, eased=mode == "quasi_static")

@@ -79,6 +79,8 @@ class Checked(NamedTuple):
     gap: Vector
     """Eq. 5: distance of the legs to the obstacle, (n,), m: below the knee their
     outline, above it the line to the hip."""
+    knees: Vector
+    """Rear ankle to the knee of the rear and of the front leg, (n, 2), m."""
 
 
 def check_double_support(
@@ -102,7 +104,7 @@ def check_double_support(
     n = len(X_ads)
     upright = rotations(np.zeros((n, 3)))
     reached, gap = np.ones(n), np.full(n, np.inf)
-    limits = np.full((n, 6), -np.inf)
+    limits, knees = np.full((n, 6), -np.inf), np.zeros((n, 2))
     for i, foot in enumerate(FEET):
         sole = np.zeros((n, 6))
         sole[:, 0] = 0.0 if i == 0 else X_ads
@@ -114,13 +116,39 @@ def check_double_support(
         beyond = np.maximum(found.angles - leg.upper[i], leg.lower[i] - found.angles)
         limits = np.maximum(limits, beyond)
         points, knee = outline_points(leg, foot, found.angles, sole)
+        knees[:, i] = knee[:, 0]
         hip = np.column_stack([X_hds, np.zeros(n), Z_hds])
         thigh = np.stack([knee, hip], axis=1)
         for line in (points, thigh):
             planar = line[:, :, [0, 2]].copy()
             planar[:, :, 0] -= front[:, None]
             gap = np.minimum(gap, outline_gap(planar, section))
-    return Checked(reached, limits, gap)
+    return Checked(reached, limits, gap, knees)
+
+
+def check_about(
+    section: Section,
+    X_ads: Vector,
+    X_hds: Vector,
+    Z_hds: Vector,
+    front: Vector,
+    leg: LegModel,
+    travel: float,
+) -> Checked:
+    """The worst of `check_double_support` while the waist is within X_hds +- travel.
+
+    Of the knees those at the middle.
+    """
+    parts = [
+        check_double_support(section, X_ads, X_hds + way, Z_hds, front, leg)
+        for way in (-travel, 0.0, travel)
+    ]
+    return Checked(
+        np.min([part.reached for part in parts], axis=0),
+        np.max([part.limits for part in parts], axis=0),
+        np.min([part.gap for part in parts], axis=0),
+        parts[1].knees,
+    )
 
 
 def feasibility_unit(
@@ -160,20 +188,12 @@ def feasibility_unit(
     )
     front = toe + share * (X - least)
     hips = params.delta_ds * X
-    parts = [
-        check_double_support(inflated, X, hips + travel, Z, front, leg)
-        for travel in (-params.waist_travel, 0.0, params.waist_travel)
-    ]
-    checked = Checked(
-        np.min([part.reached for part in parts], axis=0),
-        np.max([part.limits for part in parts], axis=0),
-        np.min([part.gap for part in parts], axis=0),
-    )
+    checked = check_about(inflated, X, hips, Z, front, leg, params.waist_travel)
     margin = params.joint_margin
     within: Mask = (checked.reached > 0.5) & (checked.limits <= -margin).all(axis=1)
     free: Mask = within & (checked.gap > 0.0)
     if not free.any():
-        return Feasibility(constraint=_failing(checked, within, margin, section))
+        return Feasibility(constraint=failing(checked, within, margin, section))
     best = int(np.argmax(free))
     key = KeyConfiguration(
         float(X[best]),
@@ -184,8 +204,15 @@ def feasibility_unit(
     return Feasibility(key)
 
 
-def _failing(checked: Checked, within: Mask, margin: float, section: Section) -> str:
-    """The constraint that no configuration meets, in one line."""
+def failing(checked: Checked, within: Mask, margin: float, section: Section) -> str:
+    """The constraint that no configuration meets, in one line.
+
+    Args:
+        checked: all configurations.
+        within: those that are in reach and within the joint limits, (n,).
+        margin: kept from the joint limits, rad.
+        section: the obstacle.
+    """
     what = f"an obstacle {section.height:.2f} m high and {section.width:.2f} m wide"
     if within.any():
         short = -float(checked.gap[within].max())

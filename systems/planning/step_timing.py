@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from systems.planning.motion_params import MotionPlannerParams
+from systems.planning.swing_trajectory import quintic
 from systems.planning.toe_off import heading
 from systems.ports import Vector
 from systems.values import FEET, ContactPhase, Foot, Footstep, other_foot
@@ -111,8 +112,25 @@ def middle_zmp(feet: Vector, params: MotionPlannerParams) -> Vector:
     return middle
 
 
-def along_keys(time: Vector, keys: Sequence[tuple[float, Vector]]) -> Vector:
-    """Points at given times on the straight lines between keys (s, m), (n, 3)."""
-    times = [when for when, _ in keys]
+def along_keys(
+    time: Vector, keys: Sequence[tuple[float, Vector]], eased: bool = False
+) -> Vector:
+    """Points at given times on the straight lines between keys.
+
+    Args:
+        time: (n,), s.
+        keys: when, s, and where, (3,), m; in order.
+        eased: at rest at every key, with a quintic between; else at constant speed.
+
+    Returns:
+        (n, 3), m; before the first key the first point, after the last the last.
+    """
+    times = np.array([when for when, _ in keys])
     points = np.array([point for _, point in keys])
-    return np.column_stack([np.interp(time, times, column) for column in points.T])
+    if not eased:
+        return np.column_stack([np.interp(time, times, column) for column in points.T])
+    place = np.interp(time, times, np.arange(len(keys), dtype=np.float64))
+    before = np.minimum(place.astype(np.intp), len(keys) - 2)
+    u = quintic(place - before)[:, None]
+    eased_points: Vector = points[before] + u * (points[before + 1] - points[before])
+    return eased_points

@@ -1,6 +1,5 @@
 """The motion of the whole body that follows waist and feet, and its ZMP."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -47,7 +46,7 @@ def body_motion(
     waist_height: Vector,
     waist_rpy: Vector,
     feet: Vector,
-    posture: Mapping[str, Vector],
+    arms: Vector | float,
     guess: Vector | None = None,
     rounds: int = 2,
 ) -> BodyMotion:
@@ -63,7 +62,8 @@ def body_motion(
         waist_height: of the pelvis, (n,), m.
         waist_rpy: of the pelvis, (n, 3), rad.
         feet: sole poses, (n, 2, 6).
-        posture: angles of joints above the legs that move, (n,) each, rad.
+        arms: how far the shoulders pitch to the rear of their posture, (n,) or one for
+            all, rad.
         guess: offset of the waist from the CoM, (n, 2), m; None for none.
         rounds: how often the offset is corrected.
     """
@@ -72,8 +72,8 @@ def body_motion(
     q = np.zeros((n, plant.num_positions()))
     for name, angle in robot.posture.items():
         q[:, plant.GetJointByName(name).position_start()] = angle
-    for name, angles in posture.items():
-        q[:, plant.GetJointByName(name).position_start()] = angles
+    for name in robot.swing_joints:
+        q[:, plant.GetJointByName(name).position_start()] += arms
     q[:, :4] = quaternions(waist_rpy)
     R_WP = rotations(waist_rpy)
     offset = np.zeros((n, 2)) if guess is None else guess

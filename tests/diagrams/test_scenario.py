@@ -232,8 +232,9 @@ def test_a_room_that_is_too_full_is_refused() -> None:
     assert "no room for 500 boxes" in message
 
 
-def test_only_stairs_are_climbed_quasi_statically() -> None:
+def test_stairs_and_obstacles_are_crossed_quasi_statically_too() -> None:
     """A room is not crossed so slowly."""
     assert load_scenario("stair-24cm", ["task.mode=quasi_static"])
+    assert load_scenario("obstacle-15cm", ["task.mode=quasi_static"])
     message = _message("room", "task.mode=quasi_static")
     assert "task.mode: room_crossing is only done dynamic, got" in message

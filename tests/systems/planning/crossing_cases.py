@@ -10,13 +10,15 @@ from diagrams.obstacle_crossing import planning_body
 from diagrams.station import robot_alone
 from models.jvrc1 import JVRC1
 from systems.balance.zmp_preview import ZmpPreviewParams
-from systems.obstacle_values import KeyConfiguration, Obstacle
+from systems.obstacle_values import Feasibility, KeyConfiguration, Obstacle
 from systems.planning.crossing_motion import plan_crossing
-from systems.planning.crossing_params import CrossingParams
+from systems.planning.crossing_params import CrossingParams, Mode
 from systems.planning.crossing_report import CrossingMotion
 from systems.planning.feasibility_unit import feasibility_unit
 from systems.planning.leg_clearance import Section
 from systems.planning.motion_params import MotionPlannerParams
+from systems.planning.quasi_static_check import balance_of
+from systems.planning.quasi_static_unit import quasi_static_unit
 from systems.planning.whole_body_plan import WholeBody
 from systems.ports import Vector
 from systems.values import Foot, Footstep
@@ -36,9 +38,21 @@ def scratch() -> Context:
     return body().plant.CreateDefaultContext()
 
 
-def key_of(section: Section, params: CrossingParams) -> KeyConfiguration:
+def feasibility(section: Section, params: CrossingParams, mode: Mode) -> Feasibility:
+    """FU's answer."""
+    leg, margins = body().leg, params.feasibility
+    if mode == "dynamic":
+        return feasibility_unit(section, WAIST, leg, margins)
+    quasi = params.quasi_static
+    balance = balance_of(body(), scratch(), quasi)
+    return quasi_static_unit(section, WAIST, leg, margins, quasi, balance)
+
+
+def key_of(
+    section: Section, params: CrossingParams, mode: Mode = "dynamic"
+) -> KeyConfiguration:
     """The key configuration of an obstacle that can be straddled."""
-    answer = feasibility_unit(section, WAIST, body().leg, params.feasibility)
+    answer = feasibility(section, params, mode)
     assert answer.key is not None, answer.constraint
     return answer.key
 
@@ -50,11 +64,14 @@ def footstep(foot: Foot, x: float, plane: int = -1) -> Footstep:
 
 
 def planned(
-    width: float, height: float, params: CrossingParams | None = None
+    width: float,
+    height: float,
+    params: CrossingParams | None = None,
+    mode: Mode = "dynamic",
 ) -> tuple[CrossingMotion, Obstacle]:
     """A motion of five steps over an obstacle, and the obstacle."""
     params = params or CrossingParams()
-    key = key_of(Section(width, height), params)
+    key = key_of(Section(width, height), params, mode)
     centre: Vector = np.array([0.2 + key.front + width / 2.0, 0.0])
     obstacle = Obstacle(centre, 0.0, width, height, 1.0)
     beyond = 0.2 + key.X_ads
@@ -80,5 +97,6 @@ def planned(
         ZmpPreviewParams(com_height=0.85),
         body(),
         scratch(),
+        mode,
     )
     return motion, obstacle

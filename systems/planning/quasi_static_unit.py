@@ -1,0 +1,211 @@
+"""FU in its quasi-static form: Eqs. 6 to 8 in place of Eqs. 10 to 13.
+
+Phase 2 begins with the CoM over the rear foot and ends with it over the front one, so
+that there are two configurations for one step: the waist is back and as high as the
+front leg reaches, then ahead and as high as the rear leg does. Both feet together
+carry in between. The leg that carries alone before and after is loaded with the whole
+weight, and how far its knee is ahead of the CoM decides whether the knee can.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from models.validation import require_at_least, require_positive
+from systems.obstacle_values import Feasibility, KeyConfiguration
+from systems.planning.feasibility_unit import (
+    SLACKS,
+    Checked,
+    FeasibilityParams,
+    Mask,
+    check_about,
+    failing,
+)
+from systems.planning.leg_clearance import Section
+from systems.planning.leg_model import LegModel
+from systems.ports import Vector
+
+
+@dataclass(kw_only=True)
+class QuasiStaticCrossingParams:
+    """How an obstacle is stepped over with the CoM always over what stands."""
+
+    single_support: float = 3.0
+    """Phases 1 and 3, s."""
+    double_support: float = 3.0
+    """Phase 2 and the double supports about the crossing, s (obstacle paper: 15)."""
+    walk_single_support: float = 1.2
+    """One foot in the air on free ground, s."""
+    walk_double_support: float = 1.8
+    """The CoM goes from foot to foot on free ground, s."""
+    rest: float = 0.15
+    """Before a foot lifts the CoM has been over the other one for this long, s."""
+    com_begin: float = 0.12
+    """CoM ahead of the rear ankle as phase 2 begins, m: on the toes' side, where the
+    way over is short and the bent knee has little to carry."""
+    com_end: float = 0.02
+    """CoM ahead of the front ankle as phase 2 ends, m; behind the middle of the sole,
+    for the rear leg must reach."""
+    lean: float = 0.2
+    """Forward pitch of the pelvis as phase 2 ends, rad: with the arms it holds the
+    waist back from the CoM, which keeps the front knee near the load."""
+    arms: float = 0.8
+    """How far the shoulders pitch forward by then, rad."""
+    margin: float = 0.02
+    """Kept by the CoM from the edges of what stands, m."""
+    waist_travel: float = 0.015
+    """How far the waist may be from where it was meant to be over the CoM, m."""
+    knee_margin: float = 0.1
+    """How far the knees keep off their straightest, rad: they move slowly."""
+    sampling: float = 0.02
+    """Of the whole-body motion that is planned, s."""
+    friction: float = 0.6
+    """mu that the static-stability polygons are computed with."""
+    torque_share: float = 0.95
+    """Share of a joint's effort limit that standing may take."""
+
+    def validate(self) -> None:
+        """Checks every field.
+
+        Raises:
+            ValueError: "field: reason, got x" for the first field that is wrong.
+        """
+        for name in (
+            "single_support",
+            "double_support",
+            "walk_single_support",
+            "walk_double_support",
+            "sampling",
+            "friction",
+            "torque_share",
+        ):
+            require_positive(name, getattr(self, name))
+        for name in ("rest", "lean", "arms", "margin", "waist_travel", "knee_margin"):
+            require_at_least(name, getattr(self, name), 0.0)
+        if not self.rest < min(self.double_support, self.walk_double_support):
+            raise ValueError(
+                f"rest: must be shorter than the double supports, got {self.rest:g} s"
+            )
+
+
+@dataclass(frozen=True)
+class Balance:
+    """What the line model needs to know of the whole body."""
+
+    waist_begin: float
+    """Waist ahead of the CoM as phase 2 begins, m."""
+    waist_end: float
+    """Waist ahead of the CoM as phase 2 ends, m."""
+    weight: float
+    """N."""
+    knee_effort: float
+    """What a knee may carry, Nm."""
+
+
+def quasi_static_unit(
+    section: Section,
+    walking_waist: float,
+    leg: LegModel,
+    params: FeasibilityParams,
+    quasi: QuasiStaticCrossingParams,
+    balance: Balance,
+) -> Feasibility:
+    """The least step with a configuration for Eq. 6 and one for Eq. 8.
+
+    Of each the highest waist is taken: the straighter the leg that carries, the less
+    has its knee to carry.
+
+    Args:
+        section: the obstacle: o_w, o_h.
+        walking_waist: height of the hips above the ground in walking, m.
+        leg: the legs.
+        params: margins and increments.
+        quasi: where the CoM is.
+        balance: of the whole body.
+
+    Returns:
+        The key configuration with its end, or the constraint that none meets.
+    """
+    x0, x1, top = section.inflated(params.s_w, params.s_h)
+    inflated = Section(x1 - x0, top)
+    toe, heel = leg.outline.toe, leg.outline.heel
+    sole = leg.sole
+    for number, place in ((6, quasi.com_begin), (8, quasi.com_end)):
+        inside = min(sole.toe - place, place + sole.heel)
+        if inside < quasi.margin - 1e-9:
+            return Feasibility(
+                constraint=f"Eq. {number}: the CoM is to be {inside:.3f} m inside the "
+                f"sole, less than {quasi.margin:.3f} m"
+            )
+    least = toe + heel + inflated.width
+    if least > params.max_step_length:
+        return Feasibility(
+            constraint=f"the obstacle is {section.width:.2f} m wide: a step over it is "
+            f"{least:.2f} m long at least, more than {params.max_step_length:.2f} m"
+        )
+    steps = np.arange(least, params.max_step_length + 1e-9, params.step_increment)
+    heights = np.arange(
+        walking_waist, params.lowest_waist - 1e-9, -params.height_increment
+    )
+    X, share, Z = (
+        grid.ravel() for grid in np.meshgrid(steps, SLACKS, heights, indexing="ij")
+    )
+    front = toe + share * (X - least)
+    ends = []
+    for number, com, ahead, carrier in (
+        (6, quasi.com_begin + 0.0 * X, balance.waist_begin, 0),
+        (8, X + quasi.com_end, balance.waist_end, 1),
+    ):
+        hips = com + ahead
+        checked = check_about(inflated, X, hips, Z, front, leg, quasi.waist_travel)
+        load = balance.weight * (checked.knees[:, carrier] - com)
+        fine, reason = _acceptable(checked, load, params, quasi, balance, section)
+        if reason:
+            where = "rear" if carrier == 0 else "front"
+            return Feasibility(
+                constraint=f"Eq. {number}, the CoM over the {where} foot: {reason}"
+            )
+        ends.append((hips, fine.reshape(-1, len(heights))))
+    both = ends[0][1].any(axis=1) & ends[1][1].any(axis=1)
+    if not both.any():
+        return Feasibility(
+            constraint="Eqs. 6 and 8: no one step length allows the CoM over either "
+            f"foot above an obstacle {section.height:.2f} m high"
+        )
+    case = int(np.argmax(both))
+    begin, end = (case * len(heights) + int(np.argmax(fine[case])) for _, fine in ends)
+    return Feasibility(
+        KeyConfiguration(
+            float(X[begin]),
+            float(ends[0][0][begin]),
+            float(Z[begin]),
+            float(front[begin] - x0),
+            float(ends[1][0][end]),
+            float(Z[end]),
+        )
+    )
+
+
+def _acceptable(
+    checked: Checked,
+    load: Vector,
+    params: FeasibilityParams,
+    quasi: QuasiStaticCrossingParams,
+    balance: Balance,
+    section: Section,
+) -> tuple[Mask, str]:
+    """Which configurations will do, (n,), and why none does."""
+    within: Mask = (checked.reached > 0.5) & (
+        checked.limits <= -params.joint_margin
+    ).all(axis=1)
+    free: Mask = within & (checked.gap > 0.0)
+    if not free.any():
+        return free, failing(checked, within, params.joint_margin, section)
+    most = quasi.torque_share * balance.knee_effort
+    fine: Mask = free & (load <= most)
+    if not fine.any():
+        return fine, (
+            f"the knee would carry {load[free].min():.0f} Nm at least, more than "
+            f"{most:.0f} Nm"
+        )
+    return fine, ""
