@@ -4,13 +4,27 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
-from diagrams.measures import LIFTED, contact_intervals, measured_zmp
+from diagrams.figure_parts import (
+    COLORS,
+    COM,
+    DCM,
+    SUPPORT,
+    ZMP,
+    legend_outside,
+    new_figure,
+    plot_column,
+    reference_signal,
+    set_title,
+    shade_activities,
+    support_edges,
+    true_zmp,
+)
+from diagrams.measures import contact_intervals
 from diagrams.room_view import draw_room
 from diagrams.run_data import RunData, read_run_data
 from diagrams.transverse_view import POLYGON_SIGNAL, transverse_view
@@ -20,15 +34,7 @@ from systems.values import FEET, Foot
 
 FIGURES_FOLDER = "figures"
 DPI = 120
-COLORS: dict[Foot, str] = {"left": "#1971c2", "right": "#d9480f"}
-COM, DCM, ZMP = "#212529", "#2f9e44", "#9c36b5"
 TREAD = "#c2a06e"
-ACTIVITY_COLORS = {
-    "scan": "#e7f5ff",
-    "plan": "#fff3bf",
-    "look": "#e7f5ff",
-    "stop": "#ffe3e3",
-}
 SHOWN_JOINTS = 6
 """How many joints have a colour of their own; the others are grey."""
 
@@ -72,34 +78,34 @@ def plot_run(folder: Path) -> list[Path]:
 
 def balance_figure(data: RunData) -> Figure:
     """CoM, DCM and ZMP along x and y over time, with the edges of the support."""
-    figure = _figure(11.0, 7.0)
+    figure = new_figure(11.0, 7.0)
     axes = figure.subplots(2, 1, sharex=True)
     time, motion = data.motion.time, data.motion
     measured_dcm = data.signal("balance_state.dcm")
-    zmp = _zmp(data)
+    zmp = true_zmp(data)
     for axis, (ax, letter) in enumerate(zip(axes, "xy", strict=True)):
-        _shade_activities(ax, data)
-        low, high = _support(data, axis)
-        ax.fill_between(time, low, high, color="#dee2e6", lw=0, label="support")
+        shade_activities(ax, data)
+        low, high = support_edges(data, np.eye(2)[axis])
+        ax.fill_between(time, low, high, color=SUPPORT, lw=0, label="support")
         if zmp is not None:
             ax.plot(time, zmp[:, axis], color=ZMP, lw=0.9, label="ZMP")
-        _plot_column(ax, _reference(data, "zmp"), axis, ZMP, "ZMP wanted")
+        plot_column(ax, reference_signal(data, "zmp"), axis, ZMP, "ZMP wanted")
         if measured_dcm is not None:
-            _plot_column(ax, measured_dcm, axis, DCM, "DCM", dashed=False)
-        _plot_column(ax, _reference(data, "dcm"), axis, DCM, "DCM wanted")
+            plot_column(ax, measured_dcm, axis, DCM, "DCM", dashed=False)
+        plot_column(ax, reference_signal(data, "dcm"), axis, DCM, "DCM wanted")
         ax.plot(time, motion.com[:, axis], color=COM, lw=1.4, label="CoM")
-        _plot_column(ax, _reference(data, "com"), axis, COM, "CoM wanted")
+        plot_column(ax, reference_signal(data, "com"), axis, COM, "CoM wanted")
         ax.set_ylabel(f"{letter} [m]")
         ax.grid(alpha=0.3)
-    _legend_outside(axes[0])
+    legend_outside(axes[0])
     axes[1].set_xlabel("time [s]")
-    _title(figure, data, "balance")
+    set_title(figure, data, "balance")
     return figure
 
 
 def top_view(data: RunData) -> Figure:
     """Treads, boxes, trees, path, footsteps, CoM and ZMP from above."""
-    figure = _figure(11.0, 6.5)
+    figure = new_figure(11.0, 6.5)
     ax = figure.subplots()
     draw_room(ax, data.run)
     for tread in data.treads:
@@ -111,7 +117,7 @@ def top_view(data: RunData) -> Figure:
             ax.add_patch(Polygon(outline, fc=COLORS[foot], ec=COLORS[foot], alpha=0.25))
             ax.add_patch(Polygon(outline, fill=False, ec=COLORS[foot], lw=1.0))
         ax.plot([], [], color=COLORS[foot], lw=6, alpha=0.4, label=f"{foot} sole")
-    zmp = _zmp(data)
+    zmp = true_zmp(data)
     if zmp is not None:
         ax.plot(*zmp.T, color=ZMP, lw=0.8, alpha=0.8, label="ZMP")
     ax.plot(*data.motion.com[:, :2].T, color=COM, lw=1.5, label="CoM")
@@ -120,14 +126,14 @@ def top_view(data: RunData) -> Figure:
     ax.set_xlabel("x [m]")
     ax.set_ylabel("y [m]")
     ax.grid(alpha=0.3)
-    _legend_outside(ax)
-    _title(figure, data, "from above")
+    legend_outside(ax)
+    set_title(figure, data, "from above")
     return figure
 
 
 def side_view(data: RunData) -> Figure:
     """Paths of toes and heels over the profile of the stairs."""
-    figure = _figure(11.0, 6.5)
+    figure = new_figure(11.0, 6.5)
     ax = figure.subplots()
     X_RW = data.treads[0].X_WR.inverse()
     offset = data.treads[0].size[0] / 2.0
@@ -160,18 +166,18 @@ def side_view(data: RunData) -> Figure:
     ax.set_xlabel("along the stairs from the first riser [m]")
     ax.set_ylabel("height [m]")
     ax.grid(alpha=0.3)
-    _legend_outside(ax)
-    _title(figure, data, "from the side")
+    legend_outside(ax)
+    set_title(figure, data, "from the side")
     return figure
 
 
 def feet_figure(data: RunData) -> Figure:
     """Heights of the soles, and the forces on them."""
-    figure = _figure(11.0, 7.0)
+    figure = new_figure(11.0, 7.0)
     heights, forces = figure.subplots(2, 1, sharex=True)
     time = data.motion.time
     for ax in (heights, forces):
-        _shade_activities(ax, data)
+        shade_activities(ax, data)
         ax.grid(alpha=0.3)
     for tread in data.treads:
         height = float(tread.X_WR.translation()[2])
@@ -186,18 +192,18 @@ def feet_figure(data: RunData) -> Figure:
     heights.set_ylabel("height [m]")
     forces.set_ylabel("normal force [body weights]")
     forces.set_xlabel("time [s]")
-    _legend_outside(heights)
+    legend_outside(heights)
     if data.wrenches is None:
         forces.text(0.5, 0.5, "not logged", transform=forces.transAxes, ha="center")
     else:
-        _legend_outside(forces)
-    _title(figure, data, "feet")
+        legend_outside(forces)
+    set_title(figure, data, "feet")
     return figure
 
 
 def joints_figure(data: RunData) -> Figure:
     """Torques and speeds of all joints as shares of their limits."""
-    figure = _figure(11.0, 7.0)
+    figure = new_figure(11.0, 7.0)
     torques, speeds = figure.subplots(2, 1, sharex=True)
     logged = data.signal("plant.net_actuation")
     limits = data.limits
@@ -214,7 +220,7 @@ def joints_figure(data: RunData) -> Figure:
     _shares(torques, data, torque_time, torque, colors, "torque / limit")
     _shares(speeds, data, data.motion.time, speed, colors, "speed / limit")
     speeds.set_xlabel("time [s]")
-    _title(figure, data, "joints")
+    set_title(figure, data, "joints")
     return figure
 
 
@@ -233,7 +239,7 @@ def _shares(
     label: str,
 ) -> None:
     """The joints nearest to their limits in colour, the others in grey."""
-    _shade_activities(ax, data)
+    shade_activities(ax, data)
     extreme = _extreme_joints(shares)
     for joint in shares.keys() - set(extreme):
         ax.plot(time, shares[joint], color="#ced4da", lw=0.6, zorder=1)
@@ -251,93 +257,7 @@ def _shares(
     ax.set_ylim(-1.15, 1.15)
     ax.set_ylabel(label)
     ax.grid(alpha=0.3)
-    _legend_outside(ax)
-
-
-def _figure(width: float, height: float) -> Figure:
-    return Figure(figsize=(width, height), layout="constrained")
-
-
-def _title(figure: Figure, data: RunData, what: str) -> None:
-    summary = data.run.summary
-    name, outcome = summary.get("scenario"), summary.get("outcome")
-    figure.suptitle(f"{name}, {outcome}: {what}", fontsize=11)
-
-
-def _legend_outside(ax: Axes) -> None:
-    if ax.get_legend_handles_labels()[0]:
-        ax.legend(
-            loc="upper left", bbox_to_anchor=(1.005, 1.0), fontsize=8, frameon=False
-        )
-
-
-def _shade_activities(ax: Axes, data: RunData) -> None:
-    """Marks when the executive was scanning or planning."""
-    if "executive.status" not in data.run.value_names:
-        return
-    entries = data.run.values("executive.status")
-    ends = [*(time for time, _ in entries[1:]), float(data.motion.time[-1])]
-    for (start, status), end in zip(entries, ends, strict=True):
-        activity = str(status.get("activity"))
-        color = ACTIVITY_COLORS.get(activity)
-        if color is not None:
-            labelled = activity in ax.get_legend_handles_labels()[1]
-            label = "_" if labelled else activity
-            ax.axvspan(start, end, color=color, lw=0, zorder=0, label=label)
-
-
-def _plot_column(
-    ax: Axes,
-    frame: pd.DataFrame | None,
-    axis: int,
-    color: str,
-    label: str,
-    dashed: bool = True,
-) -> None:
-    if frame is not None:
-        samples = frame.to_numpy(dtype=np.float64)
-        style = "--" if dashed else "-"
-        ax.plot(
-            samples[:, 0],
-            samples[:, 1 + axis],
-            color=color,
-            lw=0.9,
-            ls=style,
-            alpha=0.8,
-            label=label,
-        )
-
-
-def _reference(data: RunData, port: str) -> pd.DataFrame | None:
-    return data.first_signal(f"reference.{port}", f"stabilizer.{port}")
-
-
-def _zmp(data: RunData) -> Vector | None:
-    """The ZMP from the true contact wrenches, (n, 2)."""
-    if data.wrenches is None:
-        return None
-    poses, wrenches = data.motion.X_WF, data.wrenches
-    return measured_zmp(
-        (poses["left"], poses["right"]),
-        (wrenches["left"], wrenches["right"]),
-        data.limits.weight,
-    )
-
-
-def _support(data: RunData, axis: int) -> tuple[Vector, Vector]:
-    """Extent of the soles on the ground along one axis, (n,) each; nan without any."""
-    count = len(data.motion.time)
-    low, high = np.full(count, np.inf), np.full(count, -np.inf)
-    for foot in FEET:
-        corners = data.motion.sole_corners[foot][:, :, axis]
-        down = np.ones(count, dtype=bool)
-        if data.wrenches is not None:
-            down = data.wrenches[foot][:, 2] > LIFTED * data.limits.weight
-        low = np.where(down, np.minimum(low, corners.min(axis=1)), low)
-        high = np.where(down, np.maximum(high, corners.max(axis=1)), high)
-    none = ~np.isfinite(low)
-    low[none] = high[none] = np.nan
-    return low, high
+    legend_outside(ax)
 
 
 def _standing_samples(data: RunData, foot: Foot) -> list[int]:
