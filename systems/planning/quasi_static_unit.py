@@ -40,13 +40,13 @@ class QuasiStaticCrossingParams:
     """The CoM goes from foot to foot on free ground, s."""
     rest: float = 0.15
     """Before a foot lifts the CoM has been over the other one for this long, s."""
-    com_begin: float = 0.12
+    com_begin: float = 0.125
     """CoM ahead of the rear ankle as phase 2 begins, m: on the toes' side, where the
     way over is short and the bent knee has little to carry."""
-    com_end: float = 0.02
+    com_end: float = 0.0
     """CoM ahead of the front ankle as phase 2 ends, m; behind the middle of the sole,
     for the rear leg must reach."""
-    lean: float = 0.2
+    lean: float = 0.3
     """Forward pitch of the pelvis as phase 2 ends, rad: with the arms it holds the
     waist back from the CoM, which keeps the front knee near the load."""
     arms: float = 0.8
