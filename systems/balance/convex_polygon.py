@@ -1,5 +1,7 @@
 """Convex polygons in the plane: from half planes, and how far inside a point is."""
 
+import math
+
 import numpy as np
 
 from systems.ports import Vector
@@ -74,17 +76,17 @@ def simplified(vertices: Vector, tolerance: float = 1e-10) -> Vector:
     Returns:
         The remaining vertices, in order; one for a point, two for a segment.
     """
-    kept = list(vertices)
+    kept: list[list[float]] = np.asarray(vertices, dtype=np.float64).tolist()
     i = 0
     while len(kept) > 1 and i < len(kept):
-        a, b, c = kept[i - 1], kept[i], kept[(i + 1) % len(kept)]
-        chord = c - a
-        length = float(np.hypot(*chord))
-        to_b = b - a
-        if float(np.hypot(*to_b)) <= tolerance or (
+        (a_x, a_y), (b_x, b_y) = kept[i - 1], kept[i]
+        c_x, c_y = kept[(i + 1) % len(kept)]
+        chord_x, chord_y, x, y = c_x - a_x, c_y - a_y, b_x - a_x, b_y - a_y
+        length = math.hypot(chord_x, chord_y)
+        if math.hypot(x, y) <= tolerance or (
             len(kept) > 2
-            and abs(chord[0] * to_b[1] - chord[1] * to_b[0]) <= tolerance * length
-            and 0.0 <= chord @ to_b <= length**2
+            and abs(chord_x * y - chord_y * x) <= tolerance * length
+            and 0.0 <= chord_x * x + chord_y * y <= length**2
         ):
             del kept[i]
             i = max(i - 1, 0)

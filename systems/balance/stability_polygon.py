@@ -1,11 +1,13 @@
 """Where a robot may have its CoM, or its ZMP, on contacts at any tilt.
 
-The stair paper's Sec. 6.2: the gravito-inertial wrench cone by double description,
-cut by the question (at rest, accelerating, pushing through a ZMP). No polygon is
-returned unchecked. The cone's rows are proven by its generators, so that the polygon
-cannot be too small; every vertex is then proven by contact forces (the first phase of
-a linear programme, by non-negative least squares), so that it cannot be too large.
-Where a proof fails the polygon is computed by linear programmes instead and marked.
+The stair paper's Sec. 6.2: the gravito-inertial wrench cone, cut by the question (at
+rest, accelerating, pushing through a ZMP). The cone's rows come from double
+description, all of them; or, in half the time, only those that the question meets, by
+walking round the polygon. No polygon is returned unchecked. Rows are taken only where
+the generators prove them, so that the polygon cannot be too small; every vertex is then
+proven by contact forces (the first phase of a linear programme, by non-negative least
+squares), so that it cannot be too large. Where a proof fails the next method is asked,
+in the end linear programmes, and the answer is marked.
 """
 
 from collections.abc import Callable, Sequence
@@ -18,10 +20,12 @@ from scipy.optimize import nnls
 from systems.balance.contact_wrench_cone import Contact
 from systems.balance.convex_polygon import clip_square
 from systems.balance.gravito_inertial_cone import (
-    GravitoInertialCone,
     centred_generators,
     cone_of_generators,
+    proven_rows,
+    span,
 )
+from systems.balance.section_walk import section_rows
 from systems.balance.stability_projection import LinearProgrammeError, project
 from systems.balance.wrench_slice import (
     WrenchSlice,
@@ -35,8 +39,14 @@ from systems.values import Value
 Status: TypeAlias = Literal[
     "ok", "degenerate", "unbounded", "infeasible", "no_contact", "solver_failed"
 ]
-Method: TypeAlias = Literal["double_description", "projection"]
+Method: TypeAlias = Literal["section", "double_description", "projection"]
 
+_ATTEMPTS: dict[Method, tuple[Method, ...]] = {
+    "section": ("section", "double_description"),
+    "double_description": ("double_description",),
+    "projection": (),
+}
+"""What is asked in turn until an answer passes its check."""
 HALF_SIDE = 10.0
 """An unbounded polygon is clipped to a square of twice this about the contacts, m."""
 _UNREACHED = 1e-9
@@ -55,20 +65,21 @@ class StabilityPolygon(Value):
     """"ok"; "degenerate": a point or a segment; "unbounded": contacts can brace
     against each other, clipped to a square of 2 `HALF_SIDE`; "infeasible": no point;
     "no_contact"; "solver_failed": neither method gave an answer."""
-    method: Method = "double_description"
+    method: Method = "section"
     """Whose vertices these are."""
     caught: bool = False
-    """Whether double description gave an answer that the check refused."""
+    """Whether a faster method gave an answer that the check refused."""
 
 
 def static_polygon(
-    contacts: Sequence[Contact], method: Method = "double_description"
+    contacts: Sequence[Contact], method: Method = "section"
 ) -> StabilityPolygon:
     """Where the CoM may be for the robot to stand still: a cylinder's section.
 
     Args:
         contacts: the stance.
-        method: "projection" for Bretl and Lall's by linear programmes.
+        method: "section" for the rows that bound it, "double_description" for those
+            of the whole cone, "projection" for Bretl and Lall's linear programmes.
 
     Returns:
         The polygon of the CoM's (x, y), whatever its height.
@@ -88,7 +99,9 @@ def robust_polygon(
         contacts: the stance.
         com_height: z of the CoM in W, m.
         acceleration_bound: largest |a_WCom| along x, y and z, (3,), m/s^2.
-        method: "projection" for linear programmes.
+        method: "section" for the rows that bound it, "double_description" for those
+            of the whole cone (one serves all eight corners of the bounds),
+            "projection" for linear programmes.
 
     Returns:
         The polygon of the CoM's (x, y) at that height; its angular momentum is kept.
@@ -114,7 +127,7 @@ def zmp_support_area(
     contacts: Sequence[Contact],
     p_WCom: Vector,
     plane_height: float,
-    method: Method = "double_description",
+    method: Method = "section",
 ) -> StabilityPolygon:
     """Where the ZMP may be while the force points at a CoM that keeps its height.
 
@@ -126,7 +139,8 @@ def zmp_support_area(
         contacts: the stance.
         p_WCom: the CoM, (3,), m.
         plane_height: z of the horizontal plane in which the ZMP is taken, m.
-        method: "projection" for linear programmes.
+        method: "section" for the rows that bound it, "double_description" for those
+            of the whole cone, "projection" for linear programmes.
 
     Returns:
         The area in that plane.
@@ -188,16 +202,15 @@ def _polygon(
         return StabilityPolygon(status="no_contact", method=method)
     G, p_WQ = centred_generators(contacts)
     slices = slices_about(p_WQ)
-    caught, vertices = False, np.zeros((0, 2))
-    if method == "double_description":
-        cone = cone_of_generators(G, p_WQ)
-        if not _loses_a_dimension(cone, slices):
-            vertices = _clip(cone, slices)
-            if len(vertices) > 2 and _proven(G, slices, vertices):
-                return _result(vertices, p_WQ, method, caught=False)
-            caught = True
+    caught = False
+    for attempt in () if _loses_a_dimension(G, slices) else _ATTEMPTS[method]:
+        rows = _rows(attempt, G, p_WQ, slices)
+        vertices = np.zeros((0, 2)) if rows is None else _clip(rows, slices)
+        if len(vertices) > 2 and _proven(G, slices, vertices):
+            return _result(vertices, p_WQ, attempt, caught)
         if not _exists(G, slices):
-            return StabilityPolygon(caught=caught and len(vertices) > 0)
+            return StabilityPolygon(method=attempt, caught=len(vertices) > 0)
+        caught = caught or rows is not None
     try:
         vertices = project(G, slices, HALF_SIDE)
     except LinearProgrammeError:
@@ -205,6 +218,21 @@ def _polygon(
             status="solver_failed", method="projection", caught=caught
         )
     return _result(vertices, p_WQ, "projection", caught)
+
+
+def _rows(
+    method: Method, G: Vector, p_WQ: Vector, slices: list[WrenchSlice]
+) -> list[Vector] | None:
+    """The proven rows for each slice, (k, 6); none where the method does not apply."""
+    if method == "double_description":
+        return [cone_of_generators(G, p_WQ).rows] * len(slices)
+    sections = []
+    for part in slices:
+        rows = section_rows(G, part)
+        if rows is None:
+            return None
+        sections.append(proven_rows(rows, G))
+    return sections
 
 
 def _result(
@@ -220,22 +248,24 @@ def _result(
     return StabilityPolygon(vertices + p_WQ[:2], status, method, caught)
 
 
-def _loses_a_dimension(cone: GravitoInertialCone, slices: list[WrenchSlice]) -> bool:
+def _loses_a_dimension(G: Vector, slices: list[WrenchSlice]) -> bool:
     """Whether the cone is flat across a slice: the answer is a segment or a point.
 
     Half planes cannot tell such an answer from none; linear programmes can.
     """
-    return any(
-        np.abs(cone.normals @ np.column_stack([part.w_0, part.W])).max(initial=0.0)
-        > _UNREACHED
+    normals = span(G)[1]
+    return len(normals) > 0 and any(
+        np.abs(normals @ np.column_stack([part.w_0, part.W])).max() > _UNREACHED
         for part in slices
     )
 
 
-def _clip(cone: GravitoInertialCone, slices: list[WrenchSlice]) -> Vector:
+def _clip(rows: list[Vector], slices: list[WrenchSlice]) -> Vector:
     """The slices' half planes, cut out of the square."""
-    normals = np.vstack([cone.rows @ part.W for part in slices])
-    offsets = np.concatenate([-cone.rows @ part.w_0 for part in slices])
+    normals = np.vstack([H @ part.W for H, part in zip(rows, slices, strict=True)])
+    offsets = np.concatenate(
+        [-H @ part.w_0 for H, part in zip(rows, slices, strict=True)]
+    )
     length = np.sqrt((normals * normals).sum(axis=1))
     bounds = length > _FLAT
     if (offsets[~bounds] < -_UNREACHED).any():

@@ -11,6 +11,7 @@ from pydrake.math import RigidTransform, RollPitchYaw, RotationMatrix
 from scipy.optimize import linprog
 from shapely import MultiPoint
 
+from systems.balance import gravito_inertial_cone as gravito_inertial_cone_module
 from systems.balance import stability_polygon
 from systems.balance.contact_wrench_cone import (
     Contact,
@@ -18,10 +19,7 @@ from systems.balance.contact_wrench_cone import (
     stance_generators,
 )
 from systems.balance.convex_polygon import area, hausdorff_distance, signed_margin
-from systems.balance.gravito_inertial_cone import (
-    GravitoInertialCone,
-    gravito_inertial_cone,
-)
+from systems.balance.gravito_inertial_cone import gravito_inertial_cone
 from systems.balance.stability_polygon import (
     HALF_SIDE,
     Method,
@@ -36,7 +34,7 @@ RandomStance = Callable[[np.random.Generator], list[Contact]]
 DATA = Path(
     os.environ.get("FOOTFALL_DATA", Path(__file__).parents[3].parent / "shared/data")
 )
-METHODS: tuple[Method, Method] = ("double_description", "projection")
+METHODS: tuple[Method, ...] = ("section", "double_description", "projection")
 
 
 def foot(
@@ -70,7 +68,7 @@ def reachable(contacts: list[Contact], com: np.ndarray, acceleration: list) -> b
 
 @pytest.mark.parametrize("method", METHODS)
 def test_reference_stances(method: Method) -> None:
-    """The project's six reference polygons, within 1e-6 m, by both methods."""
+    """The project's six reference polygons, within 1e-6 m, by every method."""
     path = DATA / "static_polygons.json"
     if not path.exists():
         pytest.skip(f"no {path.name} in FOOTFALL_DATA")
@@ -91,40 +89,72 @@ def test_reference_stances(method: Method) -> None:
         expected = np.array(stance["polygon_xy_ccw"]).reshape(-1, 2)
         polygon = static_polygon(contacts, method)
         assert polygon.method == method
+        assert not polygon.caught
         assert (polygon.status == "ok") == stance["feasible"], stance["name"]
         assert hausdorff_distance(polygon.vertices, expected) < 1e-6, stance["name"]
         assert len(polygon.vertices) == len(expected)
 
 
-def test_both_methods_agree_on_random_stances(random_stance: RandomStance) -> None:
+def test_the_methods_agree_on_random_stances(random_stance: RandomStance) -> None:
     """Feet, fists and points at up to 40 deg, within 1e-4 m on every one."""
     rng = np.random.default_rng(11)
     standing = 0
     for _ in range(60):
         contacts = random_stance(rng)
-        ours, theirs = (static_polygon(contacts, method) for method in METHODS)
-        assert ours.status == theirs.status
-        assert hausdorff_distance(ours.vertices, theirs.vertices) < 1e-4
-        standing += ours.status == "ok"
+        walked, by_cone, by_lp = (static_polygon(contacts, m) for m in METHODS)
+        assert walked.status == by_cone.status == by_lp.status
+        assert hausdorff_distance(walked.vertices, by_lp.vertices) < 1e-4
+        assert hausdorff_distance(by_cone.vertices, by_lp.vertices) < 1e-4
+        standing += walked.status == "ok"
+        # Nothing but a polygon without an interior needs another method.
+        assert walked.method == "section" or walked.status != "ok"
     assert standing > 40
 
 
-def test_an_answer_that_is_wrong_is_caught(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without one of its edges' rows the polygon is too large: refused, and mended."""
+def too_few(rows: np.ndarray) -> np.ndarray:
+    """Rows without those that bound the polygon on one side."""
+    return rows[rows[:, 4] > -0.5 * np.abs(rows[:, 4]).max()]
+
+
+def too_tight(rows: np.ndarray) -> np.ndarray:
+    """Rows of which one cuts off what contacts can do."""
+    turned = rows.copy()
+    turned[0, 2] += 1e-4
+    return turned / np.linalg.norm(turned, axis=1)[:, None]
+
+
+@pytest.mark.parametrize("spoil", [too_few, too_tight])
+def test_an_answer_that_is_wrong_is_caught(
+    monkeypatch: pytest.MonkeyPatch, spoil: Callable[[np.ndarray], np.ndarray]
+) -> None:
+    """Polygons too large or too small are refused, and the next method is asked."""
     right = static_polygon(TILTED)
+    assert right.method == "section"
     assert not right.caught
-    true_cone = stability_polygon.cone_of_generators
-
-    def cone_without_rows(G: np.ndarray, p_WQ: np.ndarray) -> GravitoInertialCone:
-        cone = true_cone(G, p_WQ)
-        keep = cone.rows[:, 4] > -0.5 * np.abs(cone.rows[:, 4]).max()
-        return GravitoInertialCone(G, cone.rows[keep], cone.normals, p_WQ, 0)
-
-    monkeypatch.setattr(stability_polygon, "cone_of_generators", cone_without_rows)
+    true_rows, true_cdd = (
+        stability_polygon.section_rows,
+        gravito_inertial_cone_module._double_description,
+    )
+    monkeypatch.setattr(
+        stability_polygon, "section_rows", lambda G, part: spoil(true_rows(G, part))
+    )
     mended = static_polygon(TILTED)
     assert mended.caught
-    assert mended.method == "projection"
+    assert mended.method == "double_description"
     assert hausdorff_distance(mended.vertices, right.vertices) < 1e-7
+
+    def spoilt(rays: np.ndarray) -> np.ndarray:
+        rows = true_cdd(rays)
+        facing = rows @ [0.0, 0.0, 0.0, 0.0, -1.0, 0.0]
+        return spoil(rows[np.argsort(-facing)])
+
+    monkeypatch.setattr(gravito_inertial_cone_module, "_double_description", spoilt)
+    methods: tuple[Method, ...] = ("section", "double_description")
+    for method in methods:
+        mended = static_polygon(TILTED, method)
+        assert mended.caught
+        assert mended.method == "projection"
+        assert hausdorff_distance(mended.vertices, right.vertices) < 1e-7
 
 
 def test_the_cone_is_that_of_the_generators() -> None:
@@ -150,10 +180,12 @@ def test_on_level_ground_it_is_the_hull_of_the_soles() -> None:
     """Whatever the friction, none included."""
     for mu in (0.7, 0.0):
         contacts = [Contact(c.X_WC, 0.12, 0.07, mu) for c in LEVEL]
-        polygon = static_polygon(contacts)
-        assert polygon.status == "ok"
-        assert polygon.method == "double_description"
-        assert hausdorff_distance(polygon.vertices, hull(contacts)) < 1e-9
+        for method in METHODS[:2]:
+            polygon = static_polygon(contacts, method)
+            assert polygon.status == "ok"
+            assert polygon.method != "projection"
+            assert not polygon.caught
+            assert hausdorff_distance(polygon.vertices, hull(contacts)) < 1e-9
 
 
 def test_the_polygon_moves_with_the_stance() -> None:
@@ -174,7 +206,7 @@ def test_a_hand_on_a_wall_widens_the_polygon() -> None:
     wall = RigidTransform(RollPitchYaw(0.0, -np.pi / 2, 0.0), [0.7, 0.0, 1.0])
     hand = point_contact(wall, 0.5)
     feet, with_hand = static_polygon(LEVEL), static_polygon([*LEVEL, hand])
-    assert with_hand.method == "double_description"
+    assert with_hand.method == "section"
     by_lp = static_polygon([*LEVEL, hand], "projection")
     assert hausdorff_distance(with_hand.vertices, by_lp.vertices) < 1e-6
     assert area(with_hand.vertices) > 1.2 * area(feet.vertices)
@@ -231,9 +263,10 @@ def test_contacts_that_repeat_or_stack_change_nothing() -> None:
     twice = static_polygon([foot(0.1, 0.2, 0.0), foot(0.1, 0.2, 0.0)])
     assert hausdorff_distance(one.vertices, twice.vertices) < 1e-9
     stacked = [foot(0.1, 0.2, 0.0), foot(0.1, 0.2, 0.4)]
-    ours, theirs = (static_polygon(stacked, method) for method in METHODS)
-    assert ours.status == "ok"
-    assert hausdorff_distance(ours.vertices, theirs.vertices) < 1e-6
+    ours, by_cone, by_lp = (static_polygon(stacked, method) for method in METHODS)
+    assert ours.status == by_cone.status == "ok"
+    assert hausdorff_distance(ours.vertices, by_lp.vertices) < 1e-6
+    assert hausdorff_distance(by_cone.vertices, by_lp.vertices) < 1e-6
     # Feet above one another push apart: each tips the other's corner outward.
     assert area(ours.vertices) > area(one.vertices)
 
@@ -254,6 +287,9 @@ def test_robust_polygon_survives_every_acceleration_in_its_bounds() -> None:
     assert polygon.method == "double_description"
     by_lp = robust_polygon(TILTED, 0.9, bound, "projection")
     assert hausdorff_distance(polygon.vertices, by_lp.vertices) < 1e-6
+    walked = robust_polygon(TILTED, 0.9, bound, "section")
+    assert walked.method == "section"
+    assert hausdorff_distance(walked.vertices, by_lp.vertices) < 1e-6
     corners = [
         [sx * 0.8, sy * 0.5, sz * 0.3]
         for sx in (-1, 1)
@@ -295,10 +331,10 @@ def test_zmp_support_area_on_level_ground_is_the_hull() -> None:
 def test_zmp_support_area_on_tilted_soles_is_what_forces_can_do() -> None:
     """Just inside a vertex forces through the ZMP exist, just outside none."""
     com, plane = np.array([0.15, 0.02, 0.9]), 0.1
-    support = zmp_support_area(TILTED, com, plane)
-    assert support.method == "double_description"
-    by_lp = zmp_support_area(TILTED, com, plane, "projection")
+    support, by_cone, by_lp = (zmp_support_area(TILTED, com, plane, m) for m in METHODS)
+    assert (support.method, by_cone.method) == ("section", "double_description")
     assert hausdorff_distance(support.vertices, by_lp.vertices) < 1e-6
+    assert hausdorff_distance(by_cone.vertices, by_lp.vertices) < 1e-6
     centre = support.vertices.mean(axis=0)
     for vertex in support.vertices:
         for factor, possible in ((0.999, True), (1.001, False)):
