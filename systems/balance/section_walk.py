@@ -16,8 +16,6 @@ from scipy.optimize import nnls
 from systems.balance.wrench_slice import WrenchSlice
 from systems.ports import Vector
 
-_UNREACHED = 1e-9
-"""Forces that miss the slice by more than this, in weights (and m), do not exist."""
 _JITTER = 1e-9
 """Every generator pushes by about this much more, in weights, during the walk: corners
 in which many sets of forces meet fall apart into as many close ones, and the walk
@@ -56,11 +54,12 @@ def section_rows(generators: Vector, part: WrenchSlice) -> Vector | None:
     C = along @ generators
     push = _JITTER * (1.0 + np.arange(count) * 0.6180339887 % 1.0)
     try:
-        forces, missed = nnls(E, e + E @ push)
+        forces, _ = nnls(E, e + E @ push)
     except RuntimeError:
         return None
     basis = np.flatnonzero(forces)
-    if missed > _UNREACHED or len(basis) != 4:
+    # Where no forces reach the slice, those that come nearest are three at most.
+    if len(basis) != 4:
         return None
     edges = _walk(E, C, forces, basis.tolist())
     if len(edges) == 0:

@@ -10,6 +10,7 @@ from systems.balance.gravito_inertial_cone import (
     cone_of_generators,
 )
 from systems.balance.section_walk import section_rows
+from systems.balance.stability_polygon import static_polygon
 from systems.balance.wrench_slice import static_slice, zmp_slice
 
 
@@ -45,13 +46,32 @@ def test_a_level_sole_is_bounded_by_its_four_edges() -> None:
         np.testing.assert_allclose(lines[:, 2], extents, atol=1e-9)
 
 
-def test_a_pitched_sole_has_the_edge_that_faces_the_first_direction() -> None:
-    """There the walk begins in a tie, and must close it."""
-    G, _ = centred_generators([foot(0.0, 0.0, 0.0, 0.0, 0.2, 0.0)])
-    rows = section_rows(G, static_slice())
-    assert rows is not None
-    lines = half_planes(rows)
-    assert np.abs(lines[:, :2] - [1.0, 0.0]).sum(axis=1).min() < 1e-9
+def test_an_edge_that_faces_the_first_direction_is_not_missed() -> None:
+    """There the walk begins and ends in a tie, decided by rounding."""
+    for tilt in np.linspace(-0.6, 0.6, 25):
+        for rpy in ((0.0, tilt, 0.0), (tilt, 0.0, 0.0)):
+            G, _ = centred_generators([foot(0.0, 0.0, 0.0, *rpy)])
+            rows = section_rows(G, static_slice())
+            assert rows is not None
+            facing = half_planes(rows)[:, :2] - [1.0, 0.0]
+            assert np.abs(facing).sum(axis=1).min() < 1e-9
+
+
+def test_ties_do_not_stop_it() -> None:
+    """Level soles side by side, above one another, the same twice: no other method."""
+    ties = [
+        [foot(0.0, 0.1, 0.0), foot(0.1 * i, -0.1, 0.05 * j)]
+        for i in range(5)
+        for j in range(5)
+    ]
+    ties += [[foot(0.0, 0.1, 0.0), foot(0.0, 0.1, z)] for z in (0.0, 0.2, 0.4, 0.8)]
+    ties += [
+        [foot(0.1 * i, 0.1 * (-1) ** i, 0.1 * i) for i in range(n)] for n in (3, 6)
+    ]
+    for contacts in ties:
+        polygon = static_polygon(contacts)
+        assert polygon.method == "section"
+        assert not polygon.caught
 
 
 @pytest.mark.parametrize("part", [static_slice(), zmp_slice(np.array([0, 0, 0.8]), 0)])
