@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 
 from diagrams.box_clearance import BoxClearance, crossed
-from diagrams.measures import contact_intervals
+from diagrams.measures import LIFTED, contact_intervals
 from diagrams.true_motion import TrueMotion
 from models.solids import Box
 from systems.obstacle_values import Obstacle, ObstacleMap
@@ -72,7 +72,10 @@ def measure_crossing(
         axis = int(np.argmin(box.size[:2]))
         intervals = contact_intervals(forces[foot], weight)
         for before, after in pairwise(intervals):
-            start, end = before.end - 1, after.start
+            # A foot may stand long before it is loaded, where the robot goes slowly.
+            in_air = forces[foot][before.end : after.start + 1]
+            start = before.end - 1
+            end = before.end + int(np.argmax(in_air > LIFTED * weight))
             if p_B[start, axis] * p_B[end, axis] < 0.0:
                 lifts.append(float(motion.time[start]))
                 lands.append(float(motion.time[end]))
@@ -149,7 +152,7 @@ def planning_summary(reports: Sequence[CrossingReport]) -> dict[str, Json] | Non
     """What the planner says of its crossings, the worst of each figure; None if none.
 
     ZMP errors are (x, y), m, over phases 1 to 3, of the multibody ZMP to its reference.
-    The static margin and torque are those of a quasi-static plan, None of a dynamic one.
+    Static margin and torque are those of a quasi-static plan, None of a dynamic one.
     """
     reports = [report for report in reports if report.obstacles]
     if not reports:

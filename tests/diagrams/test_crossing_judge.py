@@ -4,10 +4,12 @@ import numpy as np
 import pytest
 
 from diagrams.box_clearance import box_distance, crossed, surface_points
-from diagrams.crossing_judge import CrossingEvidence, eyes_summary
+from diagrams.crossing_judge import CrossingEvidence, eyes_summary, measure_crossing
+from diagrams.true_motion import TrueMotion
 from models.obstacle import BoxParams
 from systems.obstacle_values import Obstacle, ObstacleMap
 from systems.ports import Vector
+from systems.values import FEET, Foot
 
 BOX = BoxParams(name="o", x=1.0, yaw=0.2, size=[0.05, 1.0, 0.15]).solid()
 
@@ -58,3 +60,48 @@ def test_the_eyes_errors_are_those_of_the_box_that_was_meant() -> None:
     assert errors["max_height_m"] == pytest.approx(0.01)
     assert errors["max_front_m"] == pytest.approx(0.002)
     assert errors["max_yaw_deg"] == pytest.approx(0.0, abs=1e-6)
+
+
+def _two_feet_over(loaded_late: float) -> tuple[TrueMotion, dict[Foot, Vector]]:
+    """Left lifts at 1 s and lands at 2 s, right at 3 and 4 s; the load comes later."""
+    time: Vector = np.arange(0.0, 6.0, 0.01)
+    poses: dict[Foot, Vector] = {}
+    forces: dict[Foot, Vector] = {}
+    for foot, lift in zip(FEET, (1.0, 3.0), strict=True):
+        X: Vector = np.tile(np.eye(4), (len(time), 1, 1))
+        X[:, 0, 3] = np.interp(time, [lift, lift + 1.0], [0.8, 1.2])
+        force = np.full(len(time), 300.0)
+        force[(time >= lift) & (time < lift + 1.0)] = 0.0
+        late = (time >= lift + 1.0) & (time < lift + 1.0 + loaded_late)
+        force[late] = 50.0
+        force[np.argmax(time >= lift + 1.05)] = 400.0 if loaded_late == 0.0 else 50.0
+        poses[foot], forces[foot] = X, force
+    nothing: Vector = np.zeros((len(time), 3))
+    motion = TrueMotion(
+        time=time,
+        X_WF=poses,
+        sole_corners={},
+        com=nothing,
+        base=nothing,
+        torso_up=np.ones(len(time)),
+    )
+    return motion, forces
+
+
+@pytest.mark.parametrize("loaded_late", [0.0, 1.5])
+def test_phases_end_with_the_touch_down_not_with_the_load(loaded_late: float) -> None:
+    """A slow robot loads a foot long after it stands."""
+    motion, forces = _two_feet_over(loaded_late)
+    found = measure_crossing(motion, forces, 600.0, BOX)
+    assert found is not None
+    assert found.time == pytest.approx(3.0, abs=0.03)
+    assert found.impact == pytest.approx(
+        400.0 / 600.0 if loaded_late == 0.0 else 50.0 / 600.0
+    )
+
+
+def test_one_foot_over_is_no_crossing() -> None:
+    """The other one stays before the box."""
+    motion, forces = _two_feet_over(0.0)
+    motion.X_WF["right"][:, 0, 3] = 0.8
+    assert measure_crossing(motion, forces, 600.0, BOX) is None

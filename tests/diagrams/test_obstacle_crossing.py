@@ -71,3 +71,39 @@ def test_too_high_an_obstacle_is_refused_before_it_is_reached(tmp_path: Path) ->
     assert "cannot be crossed" in summary["reason"]
     assert summary["obstacles_crossed"] == 0
     assert run.signals["feet.true"]["left_x"].iloc[-1] == pytest.approx(0.1, abs=0.01)
+
+
+def test_quasi_statically_the_com_is_always_over_what_stands(tmp_path: Path) -> None:
+    """The true CoM, at a third of the dynamic pace; begun near by to save time."""
+    run = _run(
+        tmp_path / "run",
+        "task.mode=quasi_static",
+        "robot.x=0.5",
+        "task.goal=[1.75, 0.0, 0.0]",
+    )
+    summary = run.summary
+    assert summary["outcome"] == "completed", summary["reason"]
+    assert summary["obstacles_crossed"] == 1
+    assert summary["min_static_margin_m"] > 0.015
+    assert summary["min_clearance_m"] >= 0.03
+    assert 8.0 < summary["crossing_time_s"] < 12.0
+    assert summary["max_torque_fraction"] < 0.95
+    planned = summary["crossing"]
+    assert summary["min_static_margin_m"] == pytest.approx(
+        planned["static_margin_m"], abs=3e-3
+    )
+    share = planned["static_torque_fraction"]
+    assert summary["max_torque_fraction"] == pytest.approx(share, abs=0.06)
+
+
+def test_quasi_statically_a_higher_obstacle_is_refused_by_its_equation(
+    tmp_path: Path,
+) -> None:
+    """20 cm, which the robot crosses dynamically."""
+    run = _run(
+        tmp_path / "run",
+        "task.mode=quasi_static",
+        "scene.boxes[0].size=[0.05, 1.2, 0.20]",
+    )
+    assert run.summary["outcome"] == "infeasible"
+    assert "Eq. 6, the CoM over the rear foot" in run.summary["reason"]
