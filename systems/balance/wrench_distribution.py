@@ -5,10 +5,10 @@ from functools import lru_cache
 
 import daqp
 import numpy as np
-from pydrake.math import RollPitchYaw
 
 from models.robot import Sole
 from systems.balance.contact_wrench_cone import contact_wrench_cone
+from systems.balance.sole_contacts import carrying_contact
 from systems.ports import Vector
 
 
@@ -102,7 +102,9 @@ def distribute_wrench(
         p_WCom: the CoM, (3,), m.
         foot_poses: sole frames X_WF, (2, 6), left first.
         contacts: which feet are on the ground, (2,), above 0.5.
-        lengths: length of sole that carries, from the toe edge back, (2,), m.
+        lengths: length of sole that carries, from the toe edge back, (2,), m. Where it
+            is less than the whole the heel is lifted; the ground under the toes, and
+            with it their friction pyramid, is level.
         sole: of both feet.
         params: weights and limits.
         torques: joint torques to keep small at `torque_cost`; None for no care.
@@ -127,14 +129,13 @@ def distribute_wrench(
     arms, rotations = [], []
     for k, i in enumerate(feet):
         block = slice(6 * k, 6 * k + 6)
-        rpy: Vector = foot_poses[i, 3:]
-        R_WF: Vector = RollPitchYaw(rpy).ToRotationMatrix().matrix()
-        p_FC = np.array([sole.toe - 0.5 * lengths[i], 0.0, 0.0])
-        arm = R_WF @ p_FC
-        offset = foot_poses[i, :3] + arm - p_WCom
-        grasp[:3, block][:, :3] = R_WF
-        grasp[3:, block][:, :3] = _cross_matrix(offset) @ R_WF
-        grasp[3:, block][:, 3:] = R_WF
+        contact = carrying_contact(foot_poses[i], lengths[i], sole, params.friction)
+        R_WC: Vector = contact.X_WC.rotation().matrix()
+        p_WC = contact.X_WC.translation()
+        arm = p_WC - foot_poses[i, :3]
+        grasp[:3, block][:, :3] = R_WC
+        grasp[3:, block][:, :3] = _cross_matrix(p_WC - p_WCom) @ R_WC
+        grasp[3:, block][:, 3:] = R_WC
         half = 0.5 * lengths[i]
         cones[16 * k : 16 * k + 16, block] = _cone(
             max(half - params.edge_margin, 0.5 * half),
@@ -143,7 +144,7 @@ def distribute_wrench(
         )
         lower[6 * k + 2] = params.least_force
         arms.append(arm)
-        rotations.append(R_WF)
+        rotations.append(R_WC)
     weights = np.array(
         [params.force_weight] * 3 + [params.moment_weight] * 2 + [params.yaw_weight]
     )

@@ -52,6 +52,18 @@ def net_of(wrenches: Vector, poses: Vector, com: Vector = COM) -> Vector:
     return net
 
 
+def ground(pose: Vector, length: float) -> tuple[Vector, Vector]:
+    """R_WC of the ground under the part of a sole that carries, and its centre from F.
+
+    The ground under lifted toes is level: the sole is tilted there, not its friction.
+    """
+    R_WF = RollPitchYaw(pose[3:]).ToRotationMatrix().matrix()
+    if length == SOLE.length:
+        return R_WF, R_WF @ [SOLE.toe - 0.5 * length, 0.0, 0.0]
+    R_WC = RollPitchYaw(0.0, 0.0, pose[5]).ToRotationMatrix().matrix()
+    return R_WC, R_WF @ [SOLE.toe, 0.0, 0.0] - R_WC @ [0.5 * length, 0.0, 0.0]
+
+
 def corner_forces_exist(
     wrench: Vector, pose: Vector, length: float, friction: float
 ) -> bool:
@@ -59,10 +71,10 @@ def corner_forces_exist(
 
     Another way to say what the contact wrench cone says, by linear programming.
     """
-    R = RollPitchYaw(pose[3:]).ToRotationMatrix().matrix()
+    R, p_FC_W = ground(pose, length)
     columns = []
-    for x, y in product((SOLE.toe - length, SOLE.toe), (-1.0, 1.0)):
-        p_W = R @ [x, y * SOLE.half_width, 0.0]
+    for x, y in product((-0.5 * length, 0.5 * length), (-1.0, 1.0)):
+        p_W = p_FC_W + R @ [x, y * SOLE.half_width, 0.0]
         for fx, fy in product((-friction, friction), repeat=2):
             force = R @ [fx, fy, 1.0]
             columns.append(np.concatenate([force, np.cross(p_W, force)]))
@@ -102,8 +114,7 @@ def test_every_foot_stays_within_its_cone(seed: int) -> None:
     wrenches = distribute(net, poses, lengths=lengths, com=com)
     for wrench, pose, length in zip(wrenches, poses, lengths, strict=True):
         assert corner_forces_exist(wrench, pose, length, 0.6 + 1e-6)
-        R = RollPitchYaw(pose[3:]).ToRotationMatrix().matrix()
-        assert (R.T @ wrench[:3])[2] >= 5.0 - 1e-6
+        assert wrench[2] >= 5.0 - 1e-6
 
 
 def test_sideways_force_beyond_friction_is_given_up() -> None:
@@ -124,12 +135,11 @@ def test_an_independent_solver_finds_the_same() -> None:
     w = program.NewContinuousVariables(12)
     grasp = np.zeros((6, 12))
     for i, (pose, length) in enumerate(zip(TOE_OFF, STRIP, strict=True)):
-        R = RollPitchYaw(pose[3:]).ToRotationMatrix().matrix()
-        p_FC = np.array([SOLE.toe - 0.5 * length, 0.0, 0.0])
-        # From the wrench about F in W to the one about the strip's centre in F.
+        R, p_FC_W = ground(pose, length)
+        # From the wrench about F in W to the one about the strip's centre in C.
         to_centre = np.zeros((6, 6))
         to_centre[:3, :3] = to_centre[3:, 3:] = R.T
-        to_centre[3:, :3] = -R.T @ cross_matrix(R @ p_FC)
+        to_centre[3:, :3] = -R.T @ cross_matrix(p_FC_W)
         A = contact_wrench_cone(
             max(0.5 * length - 0.004, 0.25 * length), SOLE.half_width - 0.004, 0.6
         )
@@ -180,16 +190,32 @@ def test_one_foot_carries_all() -> None:
 
 
 def test_a_lifted_heel_carries_at_the_toes_only() -> None:
-    """Its centre of pressure lies within the strip, seen in the tilted foot."""
+    """Its centre of pressure on the ground lies within the strip under the toes."""
     com = np.array([0.2, 0.0, 0.95])
     wrenches = distribute(
         np.array([0, 0, WEIGHT, 0, 0, 0]), TOE_OFF, lengths=STRIP, com=com
     )
-    R_FW = RollPitchYaw(TOE_OFF[0, 3:]).ToRotationMatrix().matrix().T
-    force, moment = R_FW @ wrenches[0, :3], R_FW @ wrenches[0, 3:]
+    force, moment = wrenches[0, :3], wrenches[0, 3:]
     assert force[2] >= 5.0 - 1e-6
-    x = -moment[1] / force[2]
-    assert SOLE.toe - 0.01 - 1e-6 <= x <= SOLE.toe + 1e-6
+    x, _, z = RollPitchYaw(TOE_OFF[0, 3:]).ToRotationMatrix().matrix() @ [
+        SOLE.toe,
+        0.0,
+        0.0,
+    ]
+    pressure = (z * force[0] - moment[1]) / force[2]
+    assert x - 0.01 - 1e-6 <= pressure <= x + 1e-6
+
+
+def test_unloaded_toes_are_not_made_to_slide() -> None:
+    """However steep the sole, its force stays in the level ground's pyramid."""
+    for pitch in (0.3, 0.6, 0.85):
+        poses = TOE_OFF.copy()
+        poses[0, 4] = pitch
+        com = np.array([0.38, -0.1, 0.95])
+        net = np.array([60.0, 0.0, WEIGHT, 0.0, 0.0, 0.0])
+        toes = distribute(net, poses, lengths=STRIP, com=com)[0]
+        assert 5.0 - 1e-6 <= toes[2] < 0.4 * WEIGHT
+        assert np.abs(toes[:2]).max() <= 0.6 * toes[2] + 1e-6
 
 
 def test_nobody_on_the_ground_is_no_wrench() -> None:
@@ -239,10 +265,9 @@ def test_torques_of_tilted_feet_are_those_of_wrenches_about_their_frames() -> No
         for wrench, pose, length in zip(
             w.reshape(2, 6), TOE_OFF, (0.01, SOLE.length), strict=True
         ):
-            R = RollPitchYaw(pose[3:]).ToRotationMatrix().matrix()
+            R, p_FC_W = ground(pose, length)
             f = R.T @ wrench[:3]
-            centre = np.array([SOLE.toe - 0.5 * length, 0.0, 0.0])
-            m = R.T @ wrench[3:] - np.cross(centre, f)
+            m = R.T @ (wrench[3:] - np.cross(p_FC_W, wrench[:3]))
             total += params.tangential_cost * f[:2] @ f[:2]
             total += np.array(params.moment_cost) @ m**2
         return float(total)
