@@ -58,6 +58,10 @@ def feet_along(
     margins = crossing.feasibility
     for step in steps:
         i = FEET.index(step.foot)
+        poses[time > step.land, i] = step.end
+        inside = (time >= step.lift) & (time <= step.land)
+        if not inside.any():
+            continue
         over = None
         if step.obstacle >= 0:
             obstacle = obstacles[step.obstacle]
@@ -65,7 +69,6 @@ def feet_along(
             front = front_distance(obstacle, step.start[:2]) + x0
             over = Crossing(Section(x1 - x0, top), front, step.leads)
         follows = step.obstacle >= 0 and not step.leads
-        inside = (time >= step.lift) & (time <= step.land)
         poses[inside, i] = foot_trajectory(
             step.start,
             step.end,
@@ -82,7 +85,6 @@ def feet_along(
             push = np.interp(share_of(step, time[inside]), shares, repairs.path)
             x_W = across(obstacles[step.obstacle].yaw)
             poses[inside, i, :2] += push[:, None] * x_W
-        poses[time > step.land, i] = step.end
     return poses
 
 

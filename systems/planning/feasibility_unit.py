@@ -179,29 +179,34 @@ def feasibility_unit(
             constraint=f"the obstacle is {section.width:.2f} m wide: a step over it is "
             f"{least:.2f} m long at least, more than {params.max_step_length:.2f} m"
         )
-    steps = np.arange(least, params.max_step_length + 1e-9, params.step_increment)
     heights = np.arange(
         walking_waist, params.lowest_waist - 1e-9, -params.height_increment
     )
-    X, Z, share = (
-        grid.ravel() for grid in np.meshgrid(steps, heights, SLACKS, indexing="ij")
-    )
-    front = toe + share * (X - least)
-    hips = params.delta_ds * X
-    checked = check_about(inflated, X, hips, Z, front, leg, params.waist_travel)
+    Z, share = (grid.ravel() for grid in np.meshgrid(heights, SLACKS, indexing="ij"))
     margin = params.joint_margin
-    within: Mask = (checked.reached > 0.5) & (checked.limits <= -margin).all(axis=1)
-    free: Mask = within & (checked.gap > 0.0)
-    if not free.any():
-        return Feasibility(constraint=failing(checked, within, margin, section))
-    best = int(np.argmax(free))
-    key = KeyConfiguration(
-        float(X[best]),
-        float(hips[best]),
-        float(Z[best]),
-        float(front[best] - x0),
+    tried: list[tuple[Checked, Mask]] = []
+    for X_ads in np.arange(least, params.max_step_length + 1e-9, params.step_increment):
+        X = np.full(len(Z), X_ads)
+        front = toe + share * (X - least)
+        hips = params.delta_ds * X
+        checked = check_about(inflated, X, hips, Z, front, leg, params.waist_travel)
+        within: Mask = (checked.reached > 0.5) & (checked.limits <= -margin).all(axis=1)
+        free: Mask = within & (checked.gap > 0.0)
+        if free.any():
+            best = int(np.argmax(free))
+            key = KeyConfiguration(
+                float(X_ads),
+                float(hips[best]),
+                float(Z[best]),
+                float(front[best] - x0),
+            )
+            return Feasibility(key)
+        tried.append((checked, within))
+    every = Checked(
+        *map(np.concatenate, zip(*(part for part, _ in tried), strict=True))
     )
-    return Feasibility(key)
+    inside: Mask = np.concatenate([within for _, within in tried])
+    return Feasibility(constraint=failing(every, inside, margin, section))
 
 
 def failing(checked: Checked, within: Mask, margin: float, section: Section) -> str:

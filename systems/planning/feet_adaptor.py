@@ -22,6 +22,8 @@ SHIFT = 0.01
 """By which the foot's way is moved to the rear at a time, m."""
 RAISE = 0.01
 """By which the waist is raised at a time, m."""
+FAR = 0.3
+"""From where on a leg's distance to an obstacle need not be exact, m."""
 KNOTS = 25
 """Samples of a foot's way at which the third repair moves it."""
 
@@ -71,7 +73,8 @@ def leg_gaps(
         ground: height of the floor, m.
 
     Returns:
-        (m, n, 2), m; see `outline_gap`.
+        (m, n, 2), m; see `outline_gap`; beyond `FAR` the distance along the heading,
+        which is no more than the true one.
     """
     gaps = np.zeros((len(obstacles), len(angles), 2))
     for i, foot in enumerate(FEET):
@@ -80,7 +83,10 @@ def leg_gaps(
             along = (points[:, :, :2] - obstacle.center) @ across(obstacle.yaw)
             x = along + obstacle.width / 2.0 + shifts[k]
             planar = np.stack([x, points[:, :, 2] - ground], axis=2)
-            gaps[k, :, i] = outline_gap(planar, section)
+            ahead = np.maximum(x.min(axis=1) - section.width, -x.max(axis=1))
+            gaps[k, :, i] = ahead
+            near = ahead < FAR
+            gaps[k, near, i] = outline_gap(planar[near], section)
     return gaps
 
 

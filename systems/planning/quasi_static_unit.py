@@ -143,46 +143,50 @@ def quasi_static_unit(
             constraint=f"the obstacle is {section.width:.2f} m wide: a step over it is "
             f"{least:.2f} m long at least, more than {params.max_step_length:.2f} m"
         )
-    steps = np.arange(least, params.max_step_length + 1e-9, params.step_increment)
     heights = np.arange(
         walking_waist, params.lowest_waist - 1e-9, -params.height_increment
     )
-    X, share, Z = (
-        grid.ravel() for grid in np.meshgrid(steps, SLACKS, heights, indexing="ij")
-    )
-    front = toe + share * (X - least)
-    ends = []
-    for number, com, ahead, carrier in (
-        (6, quasi.com_begin + 0.0 * X, balance.waist_begin, 0),
-        (8, X + quasi.com_end, balance.waist_end, 1),
-    ):
-        hips = com + ahead
-        checked = check_about(inflated, X, hips, Z, front, leg, quasi.waist_travel)
-        load = balance.weight * (checked.knees[:, carrier] - com)
-        fine, reason = _acceptable(checked, load, params, quasi, balance, section)
-        if reason:
-            where = "rear" if carrier == 0 else "front"
+    share, Z = (grid.ravel() for grid in np.meshgrid(SLACKS, heights, indexing="ij"))
+    tried: dict[int, list[tuple[Checked, Vector]]] = {6: [], 8: []}
+    possible = {6: False, 8: False}
+    for X_ads in np.arange(least, params.max_step_length + 1e-9, params.step_increment):
+        X = np.full(len(Z), X_ads)
+        front = toe + share * (X - least)
+        ends: list[tuple[float, Mask]] = []
+        for number, com, ahead, carrier in (
+            (6, quasi.com_begin, balance.waist_begin, 0),
+            (8, X_ads + quasi.com_end, balance.waist_end, 1),
+        ):
+            hips = np.full(len(Z), com + ahead)
+            checked = check_about(inflated, X, hips, Z, front, leg, quasi.waist_travel)
+            load = balance.weight * (checked.knees[:, carrier] - com)
+            fine, _ = _acceptable(checked, load, params, quasi, balance, section)
+            possible[number] |= bool(fine.any())
+            tried[number].append((checked, load))
+            ends.append((com + ahead, fine.reshape(-1, len(heights))))
+        both = ends[0][1].any(axis=1) & ends[1][1].any(axis=1)
+        if both.any():
+            case = int(np.argmax(both))
+            begin, end = (float(heights[np.argmax(fine[case])]) for _, fine in ends)
+            where = float(front[case * len(heights)] - x0)
             return Feasibility(
-                constraint=f"Eq. {number}, the CoM over the {where} foot: {reason}"
+                KeyConfiguration(
+                    float(X_ads), ends[0][0], begin, where, ends[1][0], end
+                )
             )
-        ends.append((hips, fine.reshape(-1, len(heights))))
-    both = ends[0][1].any(axis=1) & ends[1][1].any(axis=1)
-    if not both.any():
+    for number, foot in ((6, "rear"), (8, "front")):
+        if possible[number]:
+            continue
+        parts, loads = zip(*tried[number], strict=True)
+        every = Checked(*map(np.concatenate, zip(*parts, strict=True)))
+        load = np.concatenate(loads)
+        _, reason = _acceptable(every, load, params, quasi, balance, section)
         return Feasibility(
-            constraint="Eqs. 6 and 8: no one step length allows the CoM over either "
-            f"foot above an obstacle {section.height:.2f} m high"
+            constraint=f"Eq. {number}, the CoM over the {foot} foot: {reason}"
         )
-    case = int(np.argmax(both))
-    begin, end = (case * len(heights) + int(np.argmax(fine[case])) for _, fine in ends)
     return Feasibility(
-        KeyConfiguration(
-            float(X[begin]),
-            float(ends[0][0][begin]),
-            float(Z[begin]),
-            float(front[begin] - x0),
-            float(ends[1][0][end]),
-            float(Z[end]),
-        )
+        constraint="Eqs. 6 and 8: no one step length allows the CoM over either foot "
+        f"above an obstacle {section.height:.2f} m high"
     )
 
 

@@ -120,15 +120,20 @@ def body_zmp(
         period: between rows, s.
     """
     plant = body.plant
-    rates = np.gradient(q, period, axis=0)
-    v = np.zeros((len(q), plant.num_velocities()))
-    for row in range(len(q)):
-        plant.SetPositions(context, q[row])
-        rate: Vector = rates[row]
-        v[row] = plant.MapQDotToVelocity(context, rate)
+    rates: Vector = np.asarray(np.gradient(q, period, axis=0))
+    v = np.column_stack([spins(q[:, :4], rates[:, :4]), rates[:, 4:]])
     instance = plant.GetBodyByName(body.robot.base_body).model_instance()
     moved = momentum_trajectory(plant, context, instance, q, v)
     return multibody_zmp(moved, zmp_height, period)
+
+
+def spins(quaternion: Vector, rate: Vector) -> Vector:
+    """Angular velocities in W from quaternions (w, x, y, z) and their rates, (n, 3)."""
+    w, p = quaternion[:, :1], quaternion[:, 1:]
+    w_rate, p_rate = rate[:, :1], rate[:, 1:]
+    spin: Vector = w * p_rate - w_rate * p + np.cross(p, p_rate)
+    spin *= 2.0 / (quaternion**2).sum(axis=1)[:, None]
+    return spin
 
 
 def quaternions(rpy: Vector) -> Vector:
