@@ -1,6 +1,7 @@
 """The figures of a run."""
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,12 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
+from diagrams.crossing_data import CrossingData, read_crossings
+from diagrams.crossing_figures import (
+    adaptation_figure,
+    ahead_figure,
+    sideways_figure,
+)
 from diagrams.figure_parts import (
     COLORS,
     COM,
@@ -27,6 +34,7 @@ from diagrams.figure_parts import (
 from diagrams.measures import contact_intervals
 from diagrams.room_view import draw_room
 from diagrams.run_data import RunData, read_run_data
+from diagrams.stick_diagram import stick_diagram
 from diagrams.transverse_view import POLYGON_SIGNAL, transverse_view
 from models.staircase import Tread
 from systems.ports import Vector
@@ -35,6 +43,13 @@ from systems.values import FEET, Foot
 FIGURES_FOLDER = "figures"
 DPI = 120
 TREAD = "#c2a06e"
+CROSSING_FIGURES: dict[str, Callable[[CrossingData], Figure]] = {
+    "fig5_stick_diagram": stick_diagram,
+    "fig7_adaptation": adaptation_figure,
+    "fig8_ahead": ahead_figure,
+    "fig9_sideways": sideways_figure,
+}
+"""By the obstacle paper's numbers."""
 SHOWN_JOINTS = 6
 """How many joints have a colour of their own; the others are grey."""
 
@@ -47,6 +62,10 @@ def plot_run(folder: Path) -> list[Path]:
     steps; `static_stability.png` where the CoM might rest, as in the stair paper's
     Fig. 7; `feet.png` heights of and forces on the feet; `joints.png` torques and
     speeds as shares of their limits. What was not logged is left out of them.
+
+    Where obstacles were crossed, the obstacle paper's figures are added:
+    `fig5_stick_diagram.png`, `fig7_adaptation.png`, `fig8_ahead.png` and
+    `fig9_sideways.png`.
 
     Raises:
         RunError: the folder holds no run, or one without the plant's state.
@@ -63,17 +82,27 @@ def plot_run(folder: Path) -> list[Path]:
         figures["side_view"] = side_view
     if data.treads and POLYGON_SIGNAL in data.run.value_names:
         figures["static_stability"] = transverse_view
+    crossings = read_crossings(data)
+    if crossings is not None:
+        for name, draw_crossing in CROSSING_FIGURES.items():
+            figures[name] = partial(_draw_crossing, draw_crossing, crossings)
     target = folder / FIGURES_FOLDER
     target.mkdir(exist_ok=True)
     paths = []
     for name, draw in figures.items():
         path = target / f"{name}.png"
-        partial = path.with_suffix(".partial")
+        unfinished = path.with_suffix(".partial")
         canvas = FigureCanvasAgg(draw(data))
         canvas.figure.set_dpi(DPI)
-        canvas.print_png(str(partial))  # type: ignore[no-untyped-call]
-        paths.append(partial.replace(path))
+        canvas.print_png(str(unfinished))  # type: ignore[no-untyped-call]
+        paths.append(unfinished.replace(path))
     return paths
+
+
+def _draw_crossing(
+    draw: Callable[[CrossingData], Figure], crossings: CrossingData, _: RunData
+) -> Figure:
+    return draw(crossings)
 
 
 def balance_figure(data: RunData) -> Figure:

@@ -24,6 +24,8 @@ class RunData:
 
     run: Run
     motion: TrueMotion
+    state: Vector
+    """Positions, then velocities of the robot at `motion.time`, (n, nq + nv)."""
     limits: Limits
     velocities: Mapping[str, Vector]
     treads: tuple[Tread, ...]
@@ -65,6 +67,7 @@ def read_run_data(folder: Path) -> RunData:
     return RunData(
         run=run,
         motion=true_motion(plant, instance, robot, time, state),
+        state=state,
         limits=robot_limits(plant, instance),
         velocities=joint_velocities(plant, instance, state),
         treads=run.scenario.scene.treads(),

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,8 +12,10 @@ from pydrake.multibody.plant import AddMultibodyPlant, MultibodyPlantConfig
 from pydrake.systems.framework import Context, DiagramBuilder, LeafSystem
 from pydrake.systems.primitives import ConstantVectorSource
 
-from diagrams.scenario import Scenario, SimulationParams
+from diagrams.obstacle_crossing import build_obstacle_crossing
+from diagrams.scenario import Scenario, SimulationParams, load_scenario
 from diagrams.signals import SignalRecorder
+from diagrams.simulation import run_task
 from diagrams.task_diagram import TaskDiagram
 from models.jvrc1 import JVRC1
 from models.robot_loader import add_robot, is_sole
@@ -70,6 +73,22 @@ class Standing:
 def standing() -> Standing:
     """Builders of the task and of the scenario that goes with it."""
     return Standing(standing_task, standing_scenario)
+
+
+@pytest.fixture(scope="session")
+def crossed_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A run over 15 x 5 cm from near by, with half as many scan lines."""
+    scenario = load_scenario(
+        "obstacle-15cm",
+        [
+            "sensors.lidar.tilt_step_deg=0.5",
+            "robot.x=0.5",
+            "task.goal=[1.75, 0.0, 0.0]",
+        ],
+    )
+    folder = tmp_path_factory.mktemp("crossed") / "run"
+    run_task(build_obstacle_crossing(scenario), scenario, folder)
+    return folder
 
 
 def standing_task(

@@ -38,6 +38,19 @@ def test_figures_are_drawn(run_folder) -> None:
     assert {path.name for path in (run_folder / "figures").iterdir()} == names
 
 
+def test_a_crossing_adds_the_obstacle_papers_figures(crossed_folder) -> None:
+    """By the numbers they have there."""
+    names = {path.name for path in plot_run(crossed_folder)}
+    assert {
+        "fig5_stick_diagram.png",
+        "fig7_adaptation.png",
+        "fig8_ahead.png",
+        "fig9_sideways.png",
+    } < names
+    for name in names:
+        assert np.ptp(imread(crossed_folder / "figures" / name)[:, :, :3]) > 0.5
+
+
 def test_figures_do_without_what_was_not_logged(run_folder) -> None:
     """All but the state may be missing."""
     for path in (run_folder / "signals").iterdir():
