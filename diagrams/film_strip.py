@@ -1,4 +1,7 @@
-"""The stair paper's Fig. 8 of a run: pictures in a row, rendered without a display."""
+"""A run as pictures in a row, rendered without a display.
+
+So the stair paper shows a climb (Fig. 8) and the obstacle paper a crossing (Fig. 10).
+"""
 
 from pathlib import Path
 
@@ -8,6 +11,7 @@ from matplotlib.figure import Figure
 from pydrake.geometry import (
     ClippingRange,
     ColorRenderCamera,
+    LightParameter,
     MakeRenderEngineVtk,
     RenderCameraCore,
     RenderEngineVtkParams,
@@ -17,6 +21,7 @@ from pydrake.multibody.plant import AddMultibodyPlantSceneGraph
 from pydrake.systems.framework import DiagramBuilder
 from pydrake.systems.sensors import CameraInfo
 
+from diagrams.crossing_data import PLAN_SIGNAL, PlannedCrossing, planned_crossings
 from diagrams.evidence import STATE_SIGNAL
 from diagrams.signals import Run, RunError, load_run
 from models.robot_loader import add_robot
@@ -29,6 +34,11 @@ WIDTH, HEIGHT = 320, 480
 COLUMNS = 6
 VIEW = np.array([0.5, -2.1, 0.3])
 """From the robot's base to the camera, m: from its right, a little from the front."""
+CROSSING_VIEW = np.array([1.1, -1.75, 0.55])
+"""The same over obstacles: from higher up and farther ahead, so that neither the near
+leg nor the obstacle hides a foot."""
+LIGHTS = (((0.35, 0.6, -0.7), 1.0), ((-0.7, 0.3, -0.4), 0.55))
+"""Directions in W in which light falls, and how bright it is."""
 _ENGINE = "film"
 
 
@@ -40,8 +50,10 @@ def render_run(
     Args:
         folder: of the run.
         frames: how many pictures.
-        start: when the first is taken, s; None for when the robot first moves.
-        end: when the last is taken, s; None for when it last moves.
+        start: when the first is taken, s; None for when the robot first moves or,
+            where it crosses obstacles, a step before phase 1.
+        end: when the last is taken, s; None for when it last moves or a step after
+            phase 3.
 
     Raises:
         RunError: the folder holds no run, one without the plant's state, or nothing
@@ -53,14 +65,19 @@ def render_run(
         raise RunError(f"{folder}: the run did not log {STATE_SIGNAL}")
     samples = run.signals[STATE_SIGNAL].to_numpy(dtype=np.float64)
     time, state = samples[:, 0], samples[:, 1:]
+    crossings = _crossings(run)
     first, last = _moving(run, time)
+    if crossings:
+        stretches = np.array([plan.stretch() for plan in crossings])
+        first, last = float(stretches.min()), float(stretches.max())
     first = first if start is None else max(start, float(time[0]))
     last = last if end is None else min(end, float(time[-1]))
     if not first < last:
         raise RunError(f"{folder}: nothing to render between {first:g} and {last:g} s")
     moments = np.linspace(first, last, frames)
     rows = np.minimum(np.searchsorted(time, moments), len(time) - 1)
-    pictures = render_states(run, state[rows])
+    view = turned(CROSSING_VIEW, crossings[0].obstacles[0].yaw) if crossings else VIEW
+    pictures = render_states(run, state[rows], view)
     path = folder / STRIP_FILE
     path.parent.mkdir(exist_ok=True)
     partial = path.with_suffix(".partial")
@@ -69,12 +86,13 @@ def render_run(
     return partial.replace(path)
 
 
-def render_states(run: Run, states: Vector) -> list[Vector]:
+def render_states(run: Run, states: Vector, view: Vector = VIEW) -> list[Vector]:
     """A picture of the robot in its scene at each state, (height, width, 3) each.
 
     Args:
         run: its robot and scene.
         states: positions, then velocities of the robot, (n, nq + nv).
+        view: from the robot's base to the camera in W, (3,), m.
     """
     scenario = run.scenario
     builder = DiagramBuilder()
@@ -91,7 +109,18 @@ def render_states(run: Run, states: Vector) -> list[Vector]:
     robot = scenario.robot.model()
     instance = add_robot(plant, scene_graph, robot)
     plant.Finalize()
-    scene_graph.AddRenderer(_ENGINE, MakeRenderEngineVtk(RenderEngineVtkParams()))
+    lights = [
+        LightParameter(
+            type="directional",
+            frame="world",
+            direction=np.array(direction) / np.linalg.norm(direction),
+            intensity=intensity,
+        )
+        for direction, intensity in LIGHTS
+    ]
+    scene_graph.AddRenderer(
+        _ENGINE, MakeRenderEngineVtk(RenderEngineVtkParams(lights=lights))
+    )
     diagram = builder.Build()
     context = diagram.CreateDefaultContext()
     plant_context = plant.GetMyMutableContextFromRoot(context)
@@ -114,7 +143,7 @@ def render_states(run: Run, states: Vector) -> list[Vector]:
         plant.SetPositions(plant_context, instance, q)
         p_WBase = base.EvalPoseInWorld(plant_context).translation()
         image = query.Eval(scene_context).RenderColorImage(
-            camera, scene_graph.world_frame_id(), look_at(p_WBase + VIEW, p_WBase)
+            camera, scene_graph.world_frame_id(), look_at(p_WBase + view, p_WBase)
         )
         pictures.append(np.array(image.data)[:, :, :3])
     return pictures
@@ -139,8 +168,21 @@ def strip_figure(pictures: list[Vector], moments: Vector) -> Figure:
         ax.set_axis_off()
     for ax, picture, moment in zip(axes.flat, pictures, moments, strict=False):
         ax.imshow(picture)
-        ax.set_title(f"{moment:.1f}", y=-0.09, fontsize=10)
+        ax.set_title(f"{moment:.1f} s", y=-0.09, fontsize=10)
     return figure
+
+
+def turned(v: Vector, yaw: float) -> Vector:
+    """A vector turned by yaw, rad, about z, (3,)."""
+    R_z: Vector = RotationMatrix.MakeZRotation(yaw).matrix()
+    return R_z @ v
+
+
+def _crossings(run: Run) -> tuple[PlannedCrossing, ...]:
+    """What was crossed, if anything."""
+    if PLAN_SIGNAL not in run.value_names:
+        return ()
+    return planned_crossings(run.values(PLAN_SIGNAL))
 
 
 def _moving(run: Run, time: Vector) -> tuple[float, float]:

@@ -4,7 +4,16 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
-from diagrams.film_strip import HEIGHT, WIDTH, look_at, render_run, render_states
+from diagrams.crossing_data import PLAN_SIGNAL, planned_crossings
+from diagrams.film_strip import (
+    CROSSING_VIEW,
+    HEIGHT,
+    WIDTH,
+    look_at,
+    render_run,
+    render_states,
+    turned,
+)
 from diagrams.signals import RunError, load_run
 from diagrams.simulation import run_task
 
@@ -37,6 +46,38 @@ def test_the_robot_is_in_the_picture(run_folder) -> None:
     colour = picture.astype(int)
     orange = colour[:, :, 0] - colour[:, :, 2] > 80
     assert orange.sum() > 3000
+
+
+def test_a_crossing_is_shown_with_a_step_before_and_after(
+    crossed_folder, monkeypatch, tmp_path
+) -> None:
+    """The obstacle is in every picture of phases 1 to 3, from its own side."""
+    taken = []
+
+    def pictures(run, states, view):
+        taken.append((states, view))
+        return render_states(run, states[2:3], view) * len(states)
+
+    monkeypatch.setattr("diagrams.film_strip.render_states", pictures)
+    render_run(crossed_folder, frames=5)
+    ((states, view),) = taken
+    (plan,) = planned_crossings(load_run(crossed_folder).values(PLAN_SIGNAL))
+    time = load_run(crossed_folder).signals["plant.state"]
+    rows = [int((abs(time.iloc[:, 1:] - row).sum(axis=1)).argmin()) for row in states]
+    moments = time["time"].to_numpy()[rows]
+    assert moments[[0, -1]] == pytest.approx(plan.stretch(), abs=0.01)
+    np.testing.assert_allclose(view[:2], CROSSING_VIEW[:2], atol=0.01)
+    (picture,) = render_states(load_run(crossed_folder), states[2:3], view)
+    red, green, _ = picture.astype(int).transpose(2, 0, 1)
+    obstacle = (red - green > 15) & (red < 170) & (red - green < 60)
+    assert obstacle.sum() > 1500
+
+
+def test_the_camera_turns_with_the_obstacle() -> None:
+    """A quarter turn to the left."""
+    np.testing.assert_allclose(
+        turned(np.array([1.0, -2.0, 0.5]), np.pi / 2), [2, 1, 0.5]
+    )
 
 
 def test_camera_looks_at_its_target() -> None:
