@@ -12,6 +12,7 @@ from pydrake.multibody.plant import AddMultibodyPlant, MultibodyPlantConfig
 from pydrake.systems.framework import Context, DiagramBuilder, LeafSystem
 from pydrake.systems.primitives import ConstantVectorSource
 
+from diagrams.evidence import Evidence
 from diagrams.obstacle_crossing import build_obstacle_crossing
 from diagrams.scenario import Scenario, SimulationParams, load_scenario
 from diagrams.signals import SignalRecorder
@@ -26,6 +27,7 @@ from systems.sensing.contact_monitor import ContactMonitor, watched_geometry
 from systems.sensing.foot_wrench_sensor import FootWrenchSensor
 from systems.timing import timed
 from systems.values import FEET, TaskStatus
+from tests.diagrams.climb_evidence import climb_evidence
 
 TIME_STEP = 2e-3
 WRENCH = ("fx", "fy", "fz", "mx", "my", "mz")
@@ -73,6 +75,12 @@ class Standing:
 def standing() -> Standing:
     """Builders of the task and of the scenario that goes with it."""
     return Standing(standing_task, standing_scenario)
+
+
+@pytest.fixture
+def climb() -> Evidence:
+    """Two steps climbed: the left foot by one, then by two, the right one follows."""
+    return climb_evidence()
 
 
 @pytest.fixture(scope="session")
