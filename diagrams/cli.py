@@ -1,6 +1,7 @@
 """The command `footfall`."""
 
 import logging
+import math
 import tempfile
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
 
 RUNS_FOLDER = Path("runs")
 """Where runs go by default."""
+SLOPE = 15.0
+"""Of the planes that `segment` keeps, deg; what `PlaneSegmenterParams` has."""
 DONE, NOT_DONE, BAD_INPUT = 0, 1, 2
 """Exit status: the task was done, it was not, it could not be understood."""
 
@@ -103,7 +106,9 @@ def run(
         chosen = _load(scenario, overrides, seed)
         folder = _free_folder(chosen, out)
         summary = _simulate(chosen, folder, meshcat)
-    _print_summary(summary, folder)
+    from diagrams.summary_table import print_summary
+
+    print_summary(summary, folder)
     raise typer.Exit(DONE if summary.outcome == "completed" else NOT_DONE)
 
 
@@ -121,6 +126,13 @@ def segment(
             metavar="X,Y,Z", help="Direction of gravity in the cloud's frame."
         ),
     ] = "0,0,-1",
+    slope: Annotated[
+        float,
+        typer.Option(
+            metavar="DEG",
+            help="Steepest plane that is kept, in degrees from the horizontal.",
+        ),
+    ] = SLOPE,
     out: Annotated[
         Path | None,
         typer.Option(
@@ -134,9 +146,12 @@ def segment(
     """Find planes and stairs in a point cloud: JSON, a picture, times."""
     with _bad_input_in_one_line():
         from diagrams.segmenting import segment_file
+        from systems.perception.segmenter_params import PlaneSegmenterParams
 
         direction = _parse_direction(gravity)
-        result = segment_file(cloud, direction, out or Path("segmented") / cloud.stem)
+        params = PlaneSegmenterParams(slope_tolerance=_parse_slope(slope))
+        target = out or Path("segmented") / cloud.stem
+        result = segment_file(cloud, direction, target, params)
     found = result.segmentation
     typer.echo(
         f"{result.points} points: {len(found.planes)} planes, "
@@ -316,36 +331,6 @@ def _status(console: "Console", doing: str) -> AbstractContextManager[object]:
     return console.status(doing) if console.is_terminal else nullcontext()
 
 
-def _print_summary(summary: "Summary", folder: Path) -> None:
-    from rich.console import Console
-    from rich.markup import escape
-    from rich.table import Table
-
-    data = summary.to_json()
-    color = "green" if summary.outcome == "completed" else "red"
-    console = Console(highlight=False)
-    console.print(
-        f"[bold {color}]{summary.outcome}[/]",
-        escape(summary.reason),
-        sep=": ",
-        soft_wrap=True,
-    )
-    table = Table(box=None, show_header=False, padding=(0, 2, 0, 0))
-    skipped = {"outcome", "reason", "timing_us", "versions", "perception"}
-    for name, value in data.items():
-        if name in skipped or name.endswith("_joint"):
-            continue
-        shown = "not measured" if value is None else value
-        if isinstance(shown, float):
-            shown = f"{shown:.4g}"
-        joint = data.get(name.replace("_fraction", "_joint"))
-        if name.endswith("_fraction") and joint is not None:
-            shown = f"{shown} ({joint})"
-        table.add_row(name, str(shown))
-    console.print(table)
-    console.print(f"written to {folder}", markup=False, soft_wrap=True)
-
-
 def _parse_direction(text: str) -> "Vector":
     import numpy as np
 
@@ -358,6 +343,15 @@ def _parse_direction(text: str) -> "Vector":
             f"--gravity: must be three numbers X,Y,Z, not all zero, got {text!r}"
         )
     return numbers
+
+
+def _parse_slope(degrees: float) -> float:
+    """In rad."""
+    if not 0.0 < degrees < 90.0:
+        raise OptionError(
+            f"--slope: must lie between 0 and 90 degrees, got {degrees:g}"
+        )
+    return math.radians(degrees)
 
 
 def _quiet_drake() -> None:

@@ -1,17 +1,21 @@
 """The command line: exit status, one-line errors, what it writes and prints."""
 
+import json
+import math
 import sys
 from types import ModuleType
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from diagrams.cli import app
+from diagrams.cli import SLOPE, app
 from diagrams.scenario import list_scenarios, save_scenario
 from diagrams.signals import load_run
+from systems.perception.segmenter_params import PlaneSegmenterParams
 from systems.values import TaskStatus
 
-COMMANDS = ("list", "run", "segment", "plot", "replay", "diagram")
+COMMANDS = ("list", "run", "segment", "plot", "replay", "render", "diagram")
 
 
 def footfall(*arguments: object):
@@ -117,6 +121,9 @@ def test_the_reason_stays_one_line_as_it_is(stand, tmp_path) -> None:
         (("segment", "nowhere.pcd"), ("nowhere.pcd",)),
         (("segment", "x.pcd", "--gravity", "0,0"), ("--gravity", "'0,0'")),
         (("segment", "x.pcd", "--gravity", "0,0,0"), ("--gravity",)),
+        (("segment", "x.pcd", "--slope", "90"), ("--slope", "got 90")),
+        (("segment", "x.pcd", "--slope", "0"), ("--slope", "between 0 and 90")),
+        (("segment", "x.pcd", "--slope", "nan"), ("--slope", "got nan")),
         (("run", "stairs-exp1", "--out", "."), ("--out .", "not an empty folder")),
         (
             ("run", "stairs-exp1", "--out", "standing.yaml/x"),
@@ -143,6 +150,21 @@ def test_an_empty_cloud_is_bad_input(tmp_path) -> None:
     assert result.exit_code == 2
     (line,) = result.stderr.splitlines()
     assert "empty.xyz" in line
+
+
+def test_the_slope_decides_which_planes_are_kept(tmp_path) -> None:
+    """One of 20 degrees is too steep by default, as for `PlaneSegmenterParams`."""
+    assert math.radians(SLOPE) == pytest.approx(PlaneSegmenterParams().slope_tolerance)
+    x, y = (v.ravel() for v in np.meshgrid(*2 * [np.arange(0.0, 1.0, 0.01)]))
+    cloud = tmp_path / "ramp.xyz"
+    np.savetxt(cloud, np.column_stack([x, y, math.tan(math.radians(20.0)) * x]))
+    found = {}
+    for slope in (SLOPE, 25.0):
+        out = tmp_path / str(slope)
+        result = footfall("segment", cloud, "--slope", slope, "--out", out)
+        assert result.exit_code == 0, result.output
+        found[slope] = len(json.loads((out / "planes.json").read_text())["planes"])
+    assert found == {SLOPE: 0, 25.0: 1}
 
 
 def test_a_programming_error_is_no_bad_input(stand, monkeypatch) -> None:
