@@ -9,7 +9,7 @@ import sys
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.patches import Polygon
+from matplotlib.patches import Polygon, Rectangle
 from pydrake.math import RigidTransform
 
 from models.jvrc1 import JVRC1
@@ -28,33 +28,46 @@ def handrail_figure() -> Figure:
     ]
     p_WHand = np.array([0.35, -0.45, 1.0])
     rising = np.array([-0.58, 0.0, 0.81])
-    stances = {
-        "feet alone": (feet, "#868e96"),
-        "hand on a rising rail": (
+    wall = np.array([0.0, 1.0, 0.0])
+    stances = [
+        ("feet alone", feet, "#343a40"),
+        (
+            "hand on a rising rail",
             [*feet, hand_contact(p_WHand, rising, 0.5, 0.04, 0.04)],
             "#1c7ed6",
         ),
-        "hand against a wall": (
-            [*feet, hand_contact(p_WHand, np.array([0.0, 1.0, 0.0]), 0.5, 0.04, 0.04)],
+        (
+            "hand against a wall",
+            [*feet, hand_contact(p_WHand, wall, 0.5, 0.04, 0.04)],
             "#e8590c",
         ),
-    }
-    figure = Figure(figsize=(7.0, 6.0), layout="constrained")
+    ]
+    figure = Figure(figsize=(6.4, 7.2), layout="constrained")
     ax = figure.subplots()
-    for label, (contacts, color) in stances.items():
+    ax.add_patch(Rectangle((0.2, -0.8), 0.6, 1.1, fc="#a0703c", alpha=0.15, lw=0))
+    # The widest first, so that the smaller ones lie on top.
+    for label, contacts, color in reversed(stances):
         vertices = static_polygon(contacts).vertices
-        text = f"{label}, {1e4 * area(vertices):.0f} cm$^2$"
-        ax.add_patch(Polygon(vertices, fc=color, ec=color, alpha=0.25, lw=0))
-        ax.add_patch(Polygon(vertices, fill=False, ec=color, lw=1.8, label=text))
-    for contact in feet:
-        ax.add_patch(Polygon(contact.corners()[:, :2], fill=False, ec="black", lw=1.0))
-    ax.plot(*p_WHand[:2], "k*", ms=10, label="hand")
+        text = f"{label}: {1e4 * area(vertices):.0f} cm$^2$"
+        ax.add_patch(Polygon(vertices, fc=color, alpha=0.25, lw=0))
+        ax.add_patch(Polygon(vertices, fill=False, ec=color, lw=2.0, label=text))
+    for contact, where in zip(
+        feet, ("left sole, 0 cm", "right sole, 24 cm"), strict=True
+    ):
+        corners = contact.corners()[:, :2]
+        ax.add_patch(Polygon(corners, fc="white", ec="black", lw=1.2, zorder=3))
+        ax.annotate(
+            where, corners.mean(axis=0), ha="center", va="center", fontsize=9, zorder=4
+        )
+    ax.plot(*p_WHand[:2], "k*", ms=12, label=f"hand, {100.0 * p_WHand[2]:.0f} cm")
     ax.set_aspect("equal")
-    ax.autoscale_view()
-    ax.set_xlabel("x [m]")
+    ax.set_xlim(-0.2, 0.72)
+    ax.set_ylim(-0.76, 0.24)
+    ax.set_xlabel("x [m], the way up")
     ax.set_ylabel("y [m]")
-    ax.legend(fontsize=8)
-    ax.set_title("static-stability polygon on a step of 24 cm")
+    ax.grid(alpha=0.3)
+    figure.legend(loc="outside lower center", ncols=2, fontsize=9)
+    ax.set_title("Where the CoM may be at rest on a step of 24 cm")
     return figure
 
 
