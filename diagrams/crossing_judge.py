@@ -17,8 +17,9 @@ from systems.values import FEET, Foot, Json, to_json
 
 BOX_PREFIX = "box/"
 """What the names of obstacles begin with."""
-LANDING_TIME = 0.15
-"""After touch-down a foot's force counts as impact for this long, s."""
+LANDING_TIME = 0.05
+"""After touch-down a foot's force counts as impact for this long, s; later it is the
+weight that the robot puts on it."""
 SAME = 0.3
 """What was seen within this of a true obstacle is that obstacle, m."""
 

@@ -17,10 +17,10 @@ from systems.balance.zmp_preview import (
     GRAVITY,
     ComMotion,
     ZmpPreviewParams,
-    rest_state,
 )
-from systems.balance.zmp_tracking import generate_varying_height, height_factor
+from systems.balance.zmp_tracking import height_factor
 from systems.obstacle_values import KeyConfiguration, Obstacle
+from systems.planning.com_trajectory_generator import ComTracker, com_tracker
 from systems.planning.crossing_feet import (
     Mask,
     crossing_rows,
@@ -109,7 +109,7 @@ def plan_crossing(
         keys,
         walking,
         crossing,
-        preview,
+        com_tracker(crossing.cwtg1, preview, com[:2]),
         body,
         context,
         mode,
@@ -171,7 +171,7 @@ class _Course:
     keys: tuple[KeyConfiguration, ...]
     walking: MotionPlannerParams
     crossing: CrossingParams
-    preview: ZmpPreviewParams
+    tracker: ComTracker
     body: WholeBody
     context: Context
     mode: Mode
@@ -205,10 +205,7 @@ class _Course:
         com_height = height + (self.com[2] - self.start_waist[2])
         acceleration = np.gradient(np.gradient(com_height, period), period)
         factor = height_factor(com_height, self.zmp[:, 2], acceleration)
-        moved = generate_varying_height(
-            self.zmp[:, :2], factor, self.preview, rest_state(self.com[:2])
-        )
-        return moved, height, factor
+        return self.tracker(self.zmp[:, :2], factor), height, factor
 
     def soles(self, repairs: Repairs, time: Vector) -> Vector:
         """FTG: sole poses, (n, 2, 6)."""

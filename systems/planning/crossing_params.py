@@ -3,7 +3,12 @@
 from dataclasses import dataclass, field, replace
 from typing import Literal, TypeAlias
 
-from models.validation import require_at_least, require_positive
+from models.validation import (
+    require_at_least,
+    require_one_of,
+    require_positive,
+)
+from systems.planning.com_trajectory_generator import FORMS
 from systems.planning.feasibility_unit import FeasibilityParams
 from systems.planning.foot_trajectory_generator import FootTrajectoryParams
 from systems.planning.motion_params import MotionPlannerParams
@@ -48,6 +53,9 @@ class CrossingParams:
     sampling: float = 0.010
     """Of the whole-body motion that is planned, s; a multiple of the plan's period.
     Looked at every 5 ms the ZMP over 25 cm errs by 10 mm at most, with 15 ms by 13."""
+    cwtg1: str = "exact"
+    """Form of CWTG1: "preview" (Kajita), "window" (Eqs. 16 to 18), or "exact", which
+    knows that the height varies; CWTG2 is exact after each."""
     filter_stages: int = 2
     """How often the dynamic filter (CWTG2) is applied. The paper applies it once; the
     second time takes most of what the first leaves (20 mm become 5 mm)."""
@@ -84,6 +92,7 @@ class CrossingParams:
             "fold_margin",
         ):
             require_at_least(name, getattr(self, name), 0.0)
+        require_one_of("cwtg1", self.cwtg1, FORMS)
         require_at_least("filter_stages", self.filter_stages, 0)
         require_at_least("max_repairs", self.max_repairs, 0)
 
