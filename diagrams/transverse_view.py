@@ -1,7 +1,6 @@
 """The stair paper's Fig. 7 of a run: support areas and CoM in the transverse plane."""
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
@@ -11,6 +10,8 @@ from systems.ports import Vector
 
 POLYGON_SIGNAL = "static_stability.polygon"
 STAIR, AREA, COM = "#a0703c", "#1c7ed6", "#e03131"
+WIDTH, MARGINS = 10.0, 1.0
+"""Of the picture, and what title, legend and labels take of its height, inches."""
 SAME = 5e-3
 """Areas whose corners all lie this near to those before are drawn once, m."""
 
@@ -23,21 +24,34 @@ def transverse_view(data: RunData) -> Figure:
     Args:
         data: a run that logged `POLYGON_SIGNAL`.
     """
-    figure = Figure(figsize=(11.0, 5.0), layout="constrained")
+    areas = support_areas(data)
+    low, high = _bounds(areas, data.motion.com)
+    width, height = high - low
+    figure = Figure(
+        figsize=(WIDTH, WIDTH * height / width + MARGINS), layout="constrained"
+    )
     ax = figure.subplots()
     for tread in data.treads:
         ax.add_patch(
-            Polygon(_outline(tread), fc=STAIR, ec="#5c3d1e", alpha=0.6, lw=1.2)
+            Polygon(_outline(tread), fc=STAIR, ec="#5c3d1e", alpha=0.45, lw=1.2)
         )
-    areas = support_areas(data)
-    for area in areas:
-        ax.add_patch(Polygon(area, fc=AREA, ec="none", alpha=0.12))
-        ax.add_patch(Polygon(area, fill=False, ec="#1864ab", lw=0.9, alpha=0.8))
-    ax.plot(*data.motion.com[:, :2].T, color=COM, ls=":", lw=2.0, label="true CoM")
-    _show(ax, areas, data.motion.com)
+    for k, area in enumerate(areas):
+        if not any(_same(area, before) for before in areas[:k]):
+            ax.add_patch(Polygon(area, fc=AREA, ec="none", alpha=0.15))
+            ax.add_patch(Polygon(area, fill=False, ec="#1864ab", lw=0.9, alpha=0.8))
+    com = data.motion.com[:, :2]
+    ax.plot(*com.T, color=COM, ls=":", lw=2.2, label="true CoM")
+    for point, marker, label in ((com[0], "o", "start"), (com[-1], "s", "end")):
+        ax.plot(*point, marker, color=COM, ms=6, label=label)
+    ax.set_xlim(low[0], high[0])
+    ax.set_ylim(low[1], high[1])
+    ax.set_aspect("equal")
+    ax.set_xlabel("x [m]")
+    ax.set_ylabel("y [m]")
+    ax.grid(alpha=0.3)
     for color, label in ((AREA, "static-stability polygon"), (STAIR, "tread")):
         ax.plot([], [], color=color, lw=6, alpha=0.5, label=label)
-    ax.legend(loc="upper left", fontsize=8)
+    figure.legend(loc="outside lower center", ncols=5, fontsize=9)
     summary = data.run.summary
     margin = summary.get("min_static_margin_m")
     least = f", least margin {margin:.3f} m" if isinstance(margin, float) else ""
@@ -71,12 +85,7 @@ def _outline(tread: Tread) -> Vector:
     return corners[:, :2]
 
 
-def _show(ax: Axes, areas: list[Vector], com: Vector) -> None:
+def _bounds(areas: list[Vector], com: Vector) -> tuple[Vector, Vector]:
+    """Lower left and upper right of what is shown, (2,) each, m."""
     points = np.vstack([com[:, :2], *areas])
-    low, high = points.min(axis=0) - 0.15, points.max(axis=0) + 0.15
-    ax.set_xlim(low[0], high[0])
-    ax.set_ylim(low[1], high[1])
-    ax.set_aspect("equal", adjustable="box")
-    ax.set_xlabel("x [m]")
-    ax.set_ylabel("y [m]")
-    ax.grid(alpha=0.3)
+    return points.min(axis=0) - 0.1, points.max(axis=0) + 0.1
