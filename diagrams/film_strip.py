@@ -3,6 +3,9 @@
 So the stair paper shows a climb (Fig. 8) and the obstacle paper a crossing (Fig. 10).
 """
 
+import logging
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -118,9 +121,10 @@ def render_states(run: Run, states: Vector, view: Vector = VIEW) -> list[Vector]
         )
         for direction, intensity in LIGHTS
     ]
-    scene_graph.AddRenderer(
-        _ENGINE, MakeRenderEngineVtk(RenderEngineVtkParams(lights=lights))
-    )
+    with _without_warnings_of_materials():
+        scene_graph.AddRenderer(
+            _ENGINE, MakeRenderEngineVtk(RenderEngineVtkParams(lights=lights))
+        )
     diagram = builder.Build()
     context = diagram.CreateDefaultContext()
     plant_context = plant.GetMyMutableContextFromRoot(context)
@@ -147,6 +151,18 @@ def render_states(run: Run, states: Vector, view: Vector = VIEW) -> list[Vector]
         )
         pictures.append(np.array(image.data)[:, :, :3])
     return pictures
+
+
+@contextmanager
+def _without_warnings_of_materials() -> Iterator[None]:
+    """Drake warns of every mesh that brings its own material, as all of them do."""
+    logger = logging.getLogger("drake")
+    level = logger.level
+    logger.setLevel(logging.ERROR)
+    try:
+        yield
+    finally:
+        logger.setLevel(level)
 
 
 def look_at(p_WCamera: Vector, p_WTarget: Vector) -> RigidTransform:
