@@ -3,6 +3,7 @@
 import dataclasses
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise, product
 from typing import Literal, TypeAlias
 
@@ -27,6 +28,8 @@ Mode: TypeAlias = Literal["dynamic", "quasi_static"]
 
 QUASI_STATIC_TICK = 0.03
 """Between the postures of a slow motion that are looked at, s."""
+GAP_SCALE = 0.01
+"""A limb that is this much too near a step is as bad as twice what is allowed, m."""
 
 
 @dataclass(frozen=True)
@@ -82,13 +85,49 @@ def choose_motion(
         else:
             first = 0.0 if dynamic else _first_rise(plan, params)
             tick = TICK if dynamic else QUASI_STATIC_TICK
-            prediction = predictor.predict(plan, task.edges, yaw, tick, first)
+            least = min((excess for excess, _ in refusals), default=np.inf)
+            prediction = predictor.predict(
+                plan,
+                task.edges,
+                yaw,
+                tick,
+                first,
+                partial(_no_better, least, choice),
+            )
             excess, reason = violation(prediction, window, choice)
             if not reason:
                 return plan
             refusals.append((excess, reason))
     reason = min(refusals, key=lambda refusal: refusal[0])[1]
     return _standing(task, params, preview, robot, reason)
+
+
+def _no_better(
+    least: float, choice: ChoiceParams, miss: float, stray: float, gap: float
+) -> bool:
+    """Whether a motion need not be looked at further: one was refused for less."""
+    return max(kinematic_excess(miss, stray, gap, choice)) >= least
+
+
+def kinematic_excess(
+    miss: float, stray: float, gap: float, choice: ChoiceParams
+) -> tuple[float, float, float]:
+    """What postures violate, as multiples of what is allowed; 1 is the limit.
+
+    Args:
+        miss: distance by which a sole misses its pose, m.
+        stray: of a joint above the legs from its posture, rad.
+        gap: between a limb and a step, m.
+        choice: what is allowed.
+
+    Returns:
+        Of the reach of the legs, of the posture and of the clearance.
+    """
+    return (
+        miss / choice.reach_tolerance,
+        stray / choice.posture_tolerance,
+        1.0 + (choice.limb_clearance - gap) / GAP_SCALE,
+    )
 
 
 def violation(
@@ -106,33 +145,33 @@ def violation(
         and nothing where all is allowed.
     """
     found: list[tuple[float, str]] = []
-    miss = float(prediction.foot_error.max())
-    if miss > choice.reach_tolerance:
+    miss, stray = float(prediction.foot_error.max()), float(prediction.stray.max())
+    gap, limb, close = prediction.worst_gap()
+    of_reach, of_posture, of_clearance = kinematic_excess(miss, stray, gap, choice)
+    if of_reach > 1.0:
         when = prediction.time[int(prediction.foot_error.argmax())]
         found.append(
             (
-                miss / choice.reach_tolerance,
+                of_reach,
                 f"reach: a sole would miss its place by {miss:.3f} m at {when:.1f} s, "
                 f"more than {choice.reach_tolerance:.3f} m",
             )
         )
-    stray = float(prediction.stray.max())
-    if stray > choice.posture_tolerance:
+    if of_posture > 1.0:
         when = prediction.time[int(prediction.stray.argmax())]
         found.append(
             (
-                stray / choice.posture_tolerance,
+                of_posture,
                 f"reach: the upper body would have to stray {stray:.2f} rad from its "
                 f"posture at {when:.1f} s, more than {choice.posture_tolerance:g} rad",
             )
         )
-    gap, limb, when = prediction.worst_gap()
-    if gap < choice.limb_clearance:
+    if of_clearance > 1.0:
         found.append(
             (
-                1.0 + (choice.limb_clearance - gap) / 0.01,
+                of_clearance,
                 f"clearance: {limb} would come within {gap:.3f} m of a nosing at "
-                f"{when:.1f} s, less than {choice.limb_clearance:.3f} m",
+                f"{close:.1f} s, less than {choice.limb_clearance:.3f} m",
             )
         )
     share, joint, when = prediction.worst_torque(window)

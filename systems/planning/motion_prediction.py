@@ -6,7 +6,7 @@ collision hulls are held against the edges of the treads. Nothing here knows of
 contact physics, servos or feedback.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -132,11 +132,12 @@ class MotionPredictor:
         self._effort = np.array([item.effort_limit() for item in actuators])
         self._mass = plant.CalcTotalMass(plant.CreateDefaultContext())
         feet = set(robot.foot_bodies.values())
-        self._limbs = [
-            (plant.GetBodyByName(hull.body), hull.vertices.T)
-            for hull in hulls
-            if hull.body not in feet
-        ]
+        limbs = [hull for hull in hulls if hull.body not in feet]
+        self._limbs = [plant.GetBodyByName(hull.body) for hull in limbs]
+        sizes = [len(hull.vertices) for hull in limbs]
+        self._first_vertex = np.cumsum([0, *sizes[:-1]]).tolist()
+        self._limb_of_vertex = np.repeat(np.arange(len(limbs)), sizes)
+        self._vertices = np.vstack([np.zeros((0, 3)), *(h.vertices for h in limbs)])
 
     def predict(
         self,
@@ -145,6 +146,7 @@ class MotionPredictor:
         yaw: float,
         tick: float = TICK,
         first: float = 0.0,
+        hopeless: Callable[[float, float, float], bool] | None = None,
     ) -> MotionPrediction:
         """Carries out a plan in thought.
 
@@ -156,6 +158,8 @@ class MotionPredictor:
             tick: between the postures that are looked at, s.
             first: when the prediction begins, s after the plan's start; the plan is
                 at rest then.
+            hopeless: told the foot error, the stray and the least gap of each
+                posture; where it says so, the prediction ends there.
 
         Returns:
             The prediction.
@@ -186,19 +190,23 @@ class MotionPredictor:
             stray[k] = np.abs(q - self._ik.posture)[self._upper].max()
             if len(edges):
                 gaps[k] = self._gaps(context, edges, yaw)
+            if hopeless and hopeless(foot_error[k], stray[k], float(gaps[k].min())):
+                rows = rows[: k + 1]
+                break
             v, _ = self._ik.solve(context, self._target(plan, row, stride))
             torques[k] = self._torques(context, plan, row, (v - before) / step)
             q = integrate(plant, context, v, step)
+        seen = len(rows)
         return MotionPrediction(
-            time=time,
-            torques=torques,
+            time=time[:seen],
+            torques=torques[:seen],
             joints=self._joints,
             effort_limits=self._effort,
-            foot_error=foot_error,
-            com_error=com_error,
-            stray=stray,
-            gaps=gaps,
-            limbs=tuple(body.name() for body, _ in self._limbs),
+            foot_error=foot_error[:seen],
+            com_error=com_error[:seen],
+            stray=stray[:seen],
+            gaps=gaps[:seen],
+            limbs=tuple(body.name() for body in self._limbs),
         )
 
     def _target(self, plan: MotionPlan, row: int, stride: int) -> IkTarget:
@@ -248,31 +256,33 @@ class MotionPredictor:
         return needed
 
     def _gaps(self, context: Context, edges: Vector, yaw: float) -> Vector:
-        ahead = heading(yaw)
-        gaps = np.zeros(len(self._limbs))
-        for i, (body, p_B) in enumerate(self._limbs):
-            p_W: Vector = np.asarray(body.EvalPoseInWorld(context).multiply(p_B)).T
-            gaps[i] = edge_gap(p_W, edges, ahead)
-        return gaps
+        poses = [body.EvalPoseInWorld(context) for body in self._limbs]
+        R_WB = np.array([X_WB.rotation().matrix() for X_WB in poses])
+        p_WB = np.array([X_WB.translation() for X_WB in poses])
+        limb = self._limb_of_vertex
+        p_W = np.einsum("nij,nj->ni", R_WB[limb], self._vertices) + p_WB[limb]
+        return edge_gaps(p_W, self._first_vertex, edges, heading(yaw))
 
 
-def edge_gap(points: Vector, edges: Vector, ahead: Vector) -> float:
-    """How far a convex body is from steps that fill all ahead of and below their edges.
+def edge_gaps(points: Vector, first: list[int], edges: Vector, ahead: Vector) -> Vector:
+    """How far convex bodies are from steps that fill all ahead of and below an edge.
 
     Both are convex in the plane along the stairs, so that a line tells them apart
     where they do not meet; what is beside the steps counts as before them.
 
     Args:
-        points: the body's vertices, (n, 3), m.
+        points: the bodies' vertices, one body after the other, (n, 3), m.
+        first: index of each body's first vertex, (b,).
         edges: a point of each step's front edge, (m, 3), m.
         ahead: horizontal unit vector up the stairs, (2,).
 
     Returns:
-        The least distance, m; negative by how far the body would have to move where
-        it runs into a step.
+        The least distance of each body, (b,), m; negative by how far it would have to
+        move where it runs into a step.
     """
     normals = np.array([-np.cos(NORMALS), np.sin(NORMALS)])
-    body = np.column_stack([points[:, :2] @ ahead, points[:, 2]]) @ normals
+    along = np.column_stack([points[:, :2] @ ahead, points[:, 2]]) @ normals
+    bodies = np.minimum.reduceat(along, first, axis=0)
     steps = np.column_stack([edges[:, :2] @ ahead, edges[:, 2]]) @ normals
-    between = body.min(axis=0) - steps
-    return float(between.max(axis=1).min())
+    between = bodies[:, None] - steps
+    return np.asarray(between.max(axis=2).min(axis=1))

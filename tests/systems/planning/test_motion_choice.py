@@ -56,6 +56,32 @@ def test_too_high_a_step_is_refused_and_the_plan_stands(step_32cm, jvrc1, mode) 
     np.testing.assert_array_equal(plan.contacts, 1.0)
 
 
+def test_what_cannot_be_less_bad_is_not_looked_at_to_its_end(
+    step_32cm, jvrc1, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """And the refusal is the one that looking at everything gives."""
+    choice = ChoiceParams(
+        quasi_static_leans=[0.6, 0.45],
+        quasi_static_toe_offs=[0.85],
+        quasi_static_forwards=[0.12],
+    )
+    plan = chosen(step_32cm, "quasi_static", jvrc1, choice)
+    lengths: list[int] = []
+    predict = jvrc1.predictor.predict
+
+    def to_the_end(*args, **kwargs) -> MotionPrediction:
+        lengths.append(len(predict(*args, **kwargs).time))
+        prediction = predict(*args[:5])
+        lengths.append(len(prediction.time))
+        return prediction
+
+    monkeypatch.setattr(jvrc1.predictor, "predict", to_the_end)
+    assert chosen(step_32cm, "quasi_static", jvrc1, choice).reason == plan.reason
+    assert len(lengths) == 4
+    assert lengths[0] == lengths[1]
+    assert lengths[2] < 0.8 * lengths[3]
+
+
 def test_a_shin_against_the_nosing_is_refused(step_24cm, jvrc1) -> None:
     """With the toes at the riser."""
     near = dataclasses.replace(

@@ -7,7 +7,7 @@ from models.jvrc1 import JVRC1
 from systems.balance.zmp_preview import ZmpPreviewParams
 from systems.planning.motion import plan_motion
 from systems.planning.motion_params import MotionPlannerParams
-from systems.planning.motion_prediction import edge_gap
+from systems.planning.motion_prediction import edge_gaps
 from systems.values import MotionPlan
 
 AHEAD = np.array([1.0, 0.0])
@@ -37,15 +37,25 @@ def standing(com_x: float = 0.035) -> MotionPlan:
 def test_gap_to_a_step(edge: tuple[float, float], gap: float) -> None:
     """Before it, above it, across its edge, and within it."""
     edges = np.array([[edge[0], 7.0, edge[1]]])
-    assert edge_gap(BOX, edges, AHEAD) == pytest.approx(gap, abs=1e-3)
+    (found,) = edge_gaps(BOX, [0], edges, AHEAD)
+    assert found == pytest.approx(gap, abs=1e-3)
 
 
 def test_gap_counts_the_worst_step_along_the_stairs() -> None:
     """With the stairs turned by 90 deg."""
     turned = BOX[:, [1, 0, 2]]
     edges = np.array([[0.0, 0.3, 0.0], [0.0, 0.12, 0.5]])
-    gap = edge_gap(turned, edges, np.array([0.0, 1.0]))
+    (gap,) = edge_gaps(turned, [0], edges, np.array([0.0, 1.0]))
     assert gap == pytest.approx(0.02, abs=1e-4)
+
+
+def test_gaps_are_told_body_by_body() -> None:
+    """Of three boxes the second is over the step, the third runs into it."""
+    places = np.array([[0.0, 0.0, 0.0], [0.5, 0.0, 0.25], [0.25, 0.0, -0.4]])
+    bodies = [BOX + place for place in places]
+    edges = np.array([[0.2, 0.0, 0.1]])
+    gaps = edge_gaps(np.vstack(bodies), [0, 4, 8], edges, AHEAD)
+    np.testing.assert_allclose(gaps, [0.1, 0.05, -0.15], atol=1e-3)
 
 
 def test_standing_is_within_reach_and_symmetric(jvrc1) -> None:
