@@ -128,6 +128,6 @@ def _place_camera(meshcat: Meshcat, positions: Vector) -> None:
     path = positions[:, 4:7]
     centre = (path.min(axis=0) + path.max(axis=0)) / 2.0
     extent = float(np.ptp(path, axis=0).max())
-    distance = 1.5 + 0.6 * extent
+    distance = 1.4 + 0.5 * extent
     camera = centre + distance * np.array([-0.35, -0.9, 0.3])
     meshcat.SetCameraPose(camera, centre)
