@@ -14,6 +14,7 @@ from diagrams.film_strip import (
     look_at,
     render_run,
     render_states,
+    spread,
     turned,
 )
 from diagrams.signals import RunError, load_run
@@ -79,6 +80,13 @@ def test_a_crossing_is_shown_with_a_step_before_and_after(
     red, green, _ = picture.astype(int).transpose(2, 0, 1)
     obstacle = (red - green > 15) & (red < 170) & (red - green < 60)
     assert obstacle.sum() > 1500
+
+
+def test_pictures_are_spread_over_the_motions() -> None:
+    """None is spent on the scan between two of them."""
+    moments = spread([(1.0, 3.0), (10.0, 12.0)], 5)
+    assert moments.tolist() == [1.0, 2.0, 3.0, 11.0, 12.0]
+    assert spread([(4.0, 6.0)], 1).tolist() == [4.0]
 
 
 def test_the_camera_turns_with_the_obstacle() -> None:
