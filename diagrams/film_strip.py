@@ -26,7 +26,9 @@ from pydrake.systems.sensors import CameraInfo
 
 from diagrams.crossing_data import PLAN_SIGNAL, PlannedCrossing, planned_crossings
 from diagrams.evidence import STATE_SIGNAL
+from diagrams.run_data import mover_positions
 from diagrams.signals import Run, RunError, load_run
+from models.mover import add_movers
 from models.robot_loader import add_robot
 from models.solids import add_solids
 from systems.ports import Vector
@@ -83,7 +85,8 @@ def render_run(
     moments = spread(stretches, frames)
     rows = np.minimum(np.searchsorted(time, moments), len(time) - 1)
     view = turned(CROSSING_VIEW, crossings[0].obstacles[0].yaw) if crossings else VIEW
-    pictures = render_states(run, state[rows], view)
+    movers = mover_positions(run, time[rows])
+    pictures = render_states(run, state[rows], view, movers)
     path = folder / STRIP_FILE
     path.parent.mkdir(exist_ok=True)
     partial = path.with_suffix(".partial")
@@ -92,13 +95,17 @@ def render_run(
     return partial.replace(path)
 
 
-def render_states(run: Run, states: Vector, view: Vector = VIEW) -> list[Vector]:
+def render_states(
+    run: Run, states: Vector, view: Vector = VIEW, movers: Vector | None = None
+) -> list[Vector]:
     """A picture of the robot in its scene at each state, (height, width, 3) each.
 
     Args:
         run: its robot and scene.
         states: positions, then velocities of the robot, (n, nq + nv).
         view: from the robot's base to the camera in W, (3,), m.
+        movers: x and y of each box that moves, in turn, (n, 2 k), m; None leaves them
+            where they stand at first.
     """
     scenario = run.scenario
     builder = DiagramBuilder()
@@ -114,6 +121,7 @@ def render_states(run: Run, states: Vector, view: Vector = VIEW) -> list[Vector]
     )
     robot = scenario.robot.model()
     instance = add_robot(plant, scene_graph, robot)
+    moving = add_movers(plant, scenario.scene.movers)
     plant.Finalize()
     lights = [
         LightParameter(
@@ -145,9 +153,12 @@ def render_states(run: Run, states: Vector, view: Vector = VIEW) -> list[Vector]
     base = plant.GetBodyByName(robot.base_body, instance)
     positions = plant.num_positions(instance)
     pictures = []
-    for row in states:
+    for index, row in enumerate(states):
         q: Vector = row[:positions]
         plant.SetPositions(plant_context, instance, q)
+        if movers is not None:
+            p_WM: Vector = movers[index]
+            plant.SetPositions(plant_context, moving, p_WM)
         p_WBase = base.EvalPoseInWorld(plant_context).translation()
         image = query.Eval(scene_context).RenderColorImage(
             camera, scene_graph.world_frame_id(), look_at(p_WBase + view, p_WBase)
