@@ -109,3 +109,59 @@ def test_validation() -> None:
         replace(FootTrajectoryParams(), lifted=0.8).validate()
     with pytest.raises(ValueError, match="profile: must be"):
         replace(FootTrajectoryParams(), profile="circle").validate()
+
+
+def test_a_step_aside_and_a_turn_are_taken_on_the_way() -> None:
+    """Not at once: as a blend from start to end."""
+    leg = body().leg
+    end: Vector = np.array([0.3, 0.1, 0.0, 0.0, 0.0, 0.4])
+    poses = foot_trajectory(
+        np.zeros(6),
+        end,
+        TIME,
+        DURATION,
+        None,
+        leg.outline,
+        leg.sole.ankle_height,
+        FootTrajectoryParams(),
+    )
+    np.testing.assert_allclose(poses[[0, -1]], [np.zeros(6), end], atol=1e-9)
+    middle = poses[len(poses) // 2]
+    assert middle[5] == pytest.approx(0.2, abs=1e-6)
+    aside = np.array([-np.sin(0.4), np.cos(0.4)])
+    whole = float(end[:2] @ aside)
+    assert middle[:2] @ aside == pytest.approx(0.5 * whole, abs=1e-6)
+    assert np.abs(np.diff(poses[:, 5])).max() < 0.01
+
+
+def test_the_first_foot_lifts_its_toes_the_second_its_heel() -> None:
+    """Over the obstacle, by what the parameters say; level at both ends."""
+    params = FootTrajectoryParams()
+    lead, trail = (_way(params, leads)[:, 4] for leads in (True, False))
+    assert lead.min() == pytest.approx(params.lead_pitch, abs=0.03)
+    assert lead.max() < 0.02
+    assert trail.max() == pytest.approx(params.trail_pitch, abs=0.03)
+    for pitch in (lead, trail):
+        np.testing.assert_allclose(pitch[[0, -1]], 0.0, atol=1e-9)
+
+
+def test_the_foot_draws_back_as_far_as_the_obstacle_is_near() -> None:
+    """Further than the retraction where the toe would meet the front face."""
+    leg, params = body().leg, FootTrajectoryParams()
+    end = np.zeros(6)
+    end[0] = 0.41
+    least = []
+    for front in (leg.outline.toe + 0.05, leg.outline.toe - 0.07):
+        way = foot_trajectory(
+            np.zeros(6),
+            end,
+            TIME,
+            DURATION,
+            Crossing(OVER, front, True),
+            leg.outline,
+            leg.sole.ankle_height,
+            params,
+        )
+        least.append(way[:, 0].min())
+    assert least[0] == pytest.approx(-params.retraction, abs=0.015)
+    assert least[1] == pytest.approx(-0.07, abs=0.015)
