@@ -193,7 +193,8 @@ def render(
         typer.Option(
             "--from",
             metavar="S",
-            help="When the first is taken; by default when the robot first moves.",
+            help="When the first is taken; by default when the robot first moves, or a "
+            "step before it crosses something.",
             show_default=False,
         ),
     ] = None,
@@ -202,7 +203,8 @@ def render(
         typer.Option(
             "--to",
             metavar="S",
-            help="When the last is taken; by default when the robot last moves.",
+            help="When the last is taken; by default when the robot last moves, or a "
+            "step after it has crossed.",
             show_default=False,
         ),
     ] = None,

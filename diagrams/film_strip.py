@@ -4,7 +4,7 @@ So the stair paper shows a climb (Fig. 8) and the obstacle paper a crossing (Fig
 """
 
 import logging
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -26,7 +26,9 @@ from pydrake.systems.sensors import CameraInfo
 
 from diagrams.crossing_data import PLAN_SIGNAL, PlannedCrossing, planned_crossings
 from diagrams.evidence import STATE_SIGNAL
+from diagrams.run_data import mover_positions
 from diagrams.signals import Run, RunError, load_run
+from models.mover import add_movers
 from models.robot_loader import add_robot
 from models.solids import add_solids
 from systems.ports import Vector
@@ -56,7 +58,7 @@ def render_run(
         start: when the first is taken, s; None for when the robot first moves or,
             where it crosses obstacles, a step before phase 1.
         end: when the last is taken, s; None for when it last moves or a step after
-            phase 3.
+            phase 3. Without both what lies between two motions is left out.
 
     Raises:
         RunError: the folder holds no run, one without the plant's state, or nothing
@@ -69,18 +71,22 @@ def render_run(
     samples = run.signals[STATE_SIGNAL].to_numpy(dtype=np.float64)
     time, state = samples[:, 0], samples[:, 1:]
     crossings = _crossings(run)
-    first, last = _moving(run, time)
+    stretches = _moving(run, time)
     if crossings:
-        stretches = np.array([plan.stretch() for plan in crossings])
-        first, last = float(stretches.min()), float(stretches.max())
-    first = first if start is None else max(start, float(time[0]))
-    last = last if end is None else min(end, float(time[-1]))
+        both = np.array([plan.stretch() for plan in crossings])
+        stretches = [(float(both.min()), float(both.max()))]
+    if start is not None or end is not None:
+        first = stretches[0][0] if start is None else max(start, float(time[0]))
+        last = stretches[-1][1] if end is None else min(end, float(time[-1]))
+        stretches = [(first, last)]
+    first, last = stretches[0][0], stretches[-1][1]
     if not first < last:
         raise RunError(f"{folder}: nothing to render between {first:g} and {last:g} s")
-    moments = np.linspace(first, last, frames)
+    moments = spread(stretches, frames)
     rows = np.minimum(np.searchsorted(time, moments), len(time) - 1)
     view = turned(CROSSING_VIEW, crossings[0].obstacles[0].yaw) if crossings else VIEW
-    pictures = render_states(run, state[rows], view)
+    movers = mover_positions(run, time[rows])
+    pictures = render_states(run, state[rows], view, movers)
     path = folder / STRIP_FILE
     path.parent.mkdir(exist_ok=True)
     partial = path.with_suffix(".partial")
@@ -89,13 +95,17 @@ def render_run(
     return partial.replace(path)
 
 
-def render_states(run: Run, states: Vector, view: Vector = VIEW) -> list[Vector]:
+def render_states(
+    run: Run, states: Vector, view: Vector = VIEW, movers: Vector | None = None
+) -> list[Vector]:
     """A picture of the robot in its scene at each state, (height, width, 3) each.
 
     Args:
         run: its robot and scene.
         states: positions, then velocities of the robot, (n, nq + nv).
         view: from the robot's base to the camera in W, (3,), m.
+        movers: x and y of each box that moves, in turn, (n, 2 k), m; None leaves them
+            where they stand at first.
     """
     scenario = run.scenario
     builder = DiagramBuilder()
@@ -111,6 +121,7 @@ def render_states(run: Run, states: Vector, view: Vector = VIEW) -> list[Vector]
     )
     robot = scenario.robot.model()
     instance = add_robot(plant, scene_graph, robot)
+    moving = add_movers(plant, scenario.scene.movers)
     plant.Finalize()
     lights = [
         LightParameter(
@@ -142,9 +153,12 @@ def render_states(run: Run, states: Vector, view: Vector = VIEW) -> list[Vector]
     base = plant.GetBodyByName(robot.base_body, instance)
     positions = plant.num_positions(instance)
     pictures = []
-    for row in states:
+    for index, row in enumerate(states):
         q: Vector = row[:positions]
         plant.SetPositions(plant_context, instance, q)
+        if movers is not None:
+            p_WM: Vector = movers[index]
+            plant.SetPositions(plant_context, moving, p_WM)
         p_WBase = base.EvalPoseInWorld(plant_context).translation()
         image = query.Eval(scene_context).RenderColorImage(
             camera, scene_graph.world_frame_id(), look_at(p_WBase + view, p_WBase)
@@ -201,17 +215,31 @@ def _crossings(run: Run) -> tuple[PlannedCrossing, ...]:
     return planned_crossings(run.values(PLAN_SIGNAL))
 
 
-def _moving(run: Run, time: Vector) -> tuple[float, float]:
-    """When the robot first began and last ended to move, as its executive says."""
+def spread(stretches: Sequence[tuple[float, float]], count: int) -> Vector:
+    """Moments at equal distances over stretches of time put end to end, (count,), s.
+
+    Args:
+        stretches: begin and end of each, s, in order.
+        count: how many moments; the first is the begin of all, the last the end.
+    """
+    begins, ends = np.array(stretches, dtype=np.float64).T
+    passed = np.concatenate([[0.0], np.cumsum(ends - begins)])
+    wanted = np.linspace(0.0, passed[-1], count)
+    index = np.clip(np.searchsorted(passed, wanted) - 1, 0, len(begins) - 1)
+    moments: Vector = begins[index] + wanted - passed[index]
+    return moments
+
+
+def _moving(run: Run, time: Vector) -> list[tuple[float, float]]:
+    """When the robot moved, as its executive says; all of the run if it does not."""
+    always = [(float(time[0]), float(time[-1]))]
     if "executive.status" not in run.value_names:
-        return float(time[0]), float(time[-1])
+        return always
     entries = run.values("executive.status")
     ends = [*(moment for moment, _ in entries[1:]), float(time[-1])]
     moves = [
         (moment, end)
         for (moment, status), end in zip(entries, ends, strict=True)
-        if status.get("activity") in ("move", "walk")
+        if status.get("activity") in ("move", "walk") and end > moment
     ]
-    if not moves:
-        return float(time[0]), float(time[-1])
-    return moves[0][0], moves[-1][1]
+    return moves or always

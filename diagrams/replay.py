@@ -7,7 +7,8 @@ from pydrake.geometry import Meshcat, MeshcatVisualizer, MeshcatVisualizerParams
 from pydrake.multibody.plant import AddMultibodyPlantSceneGraph
 from pydrake.systems.framework import DiagramBuilder
 
-from diagrams.evidence import MOVERS_SIGNAL, STATE_SIGNAL
+from diagrams.evidence import STATE_SIGNAL
+from diagrams.run_data import mover_positions
 from diagrams.signals import RunError, load_run
 from models.mover import add_movers
 from models.robot import RobotModel
@@ -104,14 +105,7 @@ def replay_run(folder: Path) -> Path:
         raise RunError(f"{folder}: the run did not log {STATE_SIGNAL}")
     samples = run.signals[STATE_SIGNAL].to_numpy(dtype=np.float64)
     robot, scene = run.scenario.robot.model(), run.scenario.scene
-    movers: Vector | None = None
-    if MOVERS_SIGNAL in run.signals:
-        logged = run.signals[MOVERS_SIGNAL].to_numpy(dtype=np.float64)
-        columns = logged[:, 1 : 1 + 2 * len(scene.movers)].T
-        movers = np.stack(
-            [np.interp(samples[:, 0], logged[:, 0], column) for column in columns],
-            axis=1,
-        )
+    movers = mover_positions(run, samples[:, 0])
     html = replay_html(robot, scene, samples[:, 0], samples[:, 1:], movers)
     path = folder / REPLAY_FILE
     partial = path.with_suffix(".partial")
@@ -128,6 +122,6 @@ def _place_camera(meshcat: Meshcat, positions: Vector) -> None:
     path = positions[:, 4:7]
     centre = (path.min(axis=0) + path.max(axis=0)) / 2.0
     extent = float(np.ptp(path, axis=0).max())
-    distance = 1.5 + 0.6 * extent
+    distance = 1.4 + 0.5 * extent
     camera = centre + distance * np.array([-0.35, -0.9, 0.3])
     meshcat.SetCameraPose(camera, centre)

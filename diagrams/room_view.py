@@ -1,7 +1,7 @@
 """A room from above: the room paper's Fig. 5, with both trees of its Fig. 3."""
 
 from collections.abc import Mapping, Sequence
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -15,6 +15,7 @@ from systems.ports import Vector
 from systems.room_values import ObstacleBox
 from systems.values import Json
 
+OBSTACLE_SIGNAL = "obstacle_finder.obstacle_map"
 TRUE_BOX = "#868e96"
 SEEN_BOX = "#c92a2a"
 TREES = {"start_tree": "#74b816", "goal_tree": "#f08c00"}
@@ -26,6 +27,8 @@ HEADING = 0.2
 def draw_room(ax: Axes, run: Run) -> None:
     """Draws true and seen boxes, both trees, paths and the goal, as far as there are.
 
+    Obstacles to step over are drawn as every sweep saw them.
+
     Of a room that changed the last look is drawn, of a plan that was changed every
     path.
 
@@ -34,6 +37,8 @@ def draw_room(ax: Axes, run: Run) -> None:
         run: a run of any task.
     """
     _draw_scene(ax, run.scenario.scene)
+    if OBSTACLE_SIGNAL in run.value_names:
+        _draw_outlines(ax, _seen_obstacles(run), "obstacle seen")
     if "executive.path_plan" not in run.value_names:
         return
     room = run.scenario.scene.room
@@ -97,6 +102,18 @@ def _seen_boxes(environment: Mapping[str, Json]) -> list[ObstacleBox]:
         size: Vector = np.array(item["size"], dtype=np.float64)
         yaw = float(cast(float, item["yaw"]))
         boxes.append(ObstacleBox(str(item["name"]), center, yaw, size))
+    return boxes
+
+
+def _seen_obstacles(run: Run) -> list[ObstacleBox]:
+    """What every sweep saw to lie in the way."""
+    boxes = []
+    for seen in _values(run, OBSTACLE_SIGNAL):
+        for item in cast(Sequence[Mapping[str, Any]], seen["obstacles"]):
+            middle = item["height"] / 2.0
+            center: Vector = np.array([*item["center"], middle], dtype=np.float64)
+            size: Vector = np.array([item["width"], item["length"], item["height"]])
+            boxes.append(ObstacleBox("obstacle", center, float(item["yaw"]), size))
     return boxes
 
 

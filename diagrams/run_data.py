@@ -9,7 +9,13 @@ import pandas as pd
 from pydrake.multibody.plant import AddMultibodyPlantSceneGraph
 from pydrake.systems.framework import DiagramBuilder
 
-from diagrams.evidence import STATE_SIGNAL, Limits, joint_velocities, robot_limits
+from diagrams.evidence import (
+    MOVERS_SIGNAL,
+    STATE_SIGNAL,
+    Limits,
+    joint_velocities,
+    robot_limits,
+)
 from diagrams.signals import Run, RunError, load_run
 from diagrams.true_motion import TrueMotion, true_motion
 from models.robot_loader import add_robot
@@ -73,3 +79,17 @@ def read_run_data(folder: Path) -> RunData:
         treads=run.scenario.scene.treads(),
         wrenches=wrenches,
     )
+
+
+def mover_positions(run: Run, time: Vector) -> Vector | None:
+    """Where each box that moves was: x, y in turn, (n, 2 k), m; None if not logged.
+
+    Args:
+        run: the run.
+        time: when, (n,), s.
+    """
+    if MOVERS_SIGNAL not in run.signals:
+        return None
+    logged = run.signals[MOVERS_SIGNAL].to_numpy(dtype=np.float64)
+    columns = logged[:, 1 : 1 + 2 * len(run.scenario.scene.movers)].T
+    return np.stack([np.interp(time, logged[:, 0], part) for part in columns], axis=1)

@@ -75,8 +75,10 @@ def stick_diagram(crossing: CrossingData) -> Figure:
         ax.set_ylim(-0.03, 1.0)
         ax.axhline(0.0, color="#495057", lw=1.0)
         ax.grid(alpha=0.25)
+    for ax in rows[-1]:
         ax.set_xlabel("across the obstacle from its middle [m]")
-    rows[0, 0].set_ylabel("height [m]")
+    for ax in rows[:, 0]:
+        ax.set_ylabel("height [m]")
     handles, labels = rows[0, 0].get_legend_handles_labels()
     figure.legend(
         handles, labels, loc="outside lower center", ncols=len(labels), fontsize=9

@@ -37,8 +37,8 @@ class IkParams:
     """Weight of the pelvis' yaw rate, s^2/rad^2."""
     free_weight: float = 0.2
     """w_free of the free foot's velocity error (stair paper, Sec. 6.1)."""
-    posture_weight: float = 2e-4
-    """w_ref of joints above the legs (the paper's 0.001, per its gain)."""
+    posture_weight: float = 1e-3
+    """w_ref of the posture of the joints above the legs (stair paper, Sec. 6.1)."""
     leg_weight: float = 1e-6
     """The same for the legs, which the tasks determine but at singularities."""
     damping: float = 1e-5

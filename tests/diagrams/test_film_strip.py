@@ -1,6 +1,7 @@
 """The film strip of a run, rendered without a display."""
 
 import logging
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,10 +15,13 @@ from diagrams.film_strip import (
     look_at,
     render_run,
     render_states,
+    spread,
     turned,
 )
-from diagrams.signals import RunError, load_run
+from diagrams.scenario import save_scenario
+from diagrams.signals import Run, RunError, load_run
 from diagrams.simulation import run_task
+from models.mover import MoverParams
 
 
 @pytest.fixture
@@ -62,7 +66,8 @@ def test_a_crossing_is_shown_with_a_step_before_and_after(
     """The obstacle is in every picture of phases 1 to 3, from its own side."""
     taken = []
 
-    def pictures(run, states, view):
+    def pictures(run, states, view, movers):
+        assert movers is None
         taken.append((states, view))
         return render_states(run, states[2:3], view) * len(states)
 
@@ -79,6 +84,30 @@ def test_a_crossing_is_shown_with_a_step_before_and_after(
     red, green, _ = picture.astype(int).transpose(2, 0, 1)
     obstacle = (red - green > 15) & (red < 170) & (red - green < 60)
     assert obstacle.sum() > 1500
+
+
+def test_pictures_are_spread_over_the_motions() -> None:
+    """None is spent on the scan between two of them."""
+    moments = spread([(1.0, 3.0), (10.0, 12.0)], 5)
+    assert moments.tolist() == [1.0, 2.0, 3.0, 11.0, 12.0]
+    assert spread([(4.0, 6.0)], 1).tolist() == [4.0]
+
+
+def test_boxes_that_move_are_where_they_were(standing, tmp_path) -> None:
+    """One beside the robot hides what is behind it only once it has come."""
+    movers = [MoverParams(name="cart", x=-3.0, y=0.6, size=[0.5, 0.3, 1.2])]
+    scene = replace(standing.scenario().scene, movers=movers)
+    scenario = replace(standing.scenario(), scene=scene)
+    save_scenario(scenario, tmp_path / "scenario.yaml")
+    task = standing.task()
+    state = task.plant.GetPositionsAndVelocities(
+        task.plant.CreateDefaultContext(), task.robot_instance
+    )
+    states = np.tile(state, (3, 1))
+    places = np.array([[-3.0, 0.6], [-3.0, 0.6], [0.0, 0.6]])
+    away, still, near = render_states(Run(tmp_path), states, movers=places)
+    np.testing.assert_array_equal(away, still)
+    assert (np.abs(near.astype(int) - away).max(axis=2) > 20).mean() > 0.03
 
 
 def test_the_camera_turns_with_the_obstacle() -> None:

@@ -6,7 +6,8 @@ from matplotlib.image import imread
 
 from diagrams.illustrations import illustrate
 from diagrams.replay import MAX_FRAMES, replay_html, replay_run
-from diagrams.report import plot_run
+from diagrams.report import plot_run, top_view
+from diagrams.run_data import read_run_data
 from diagrams.signals import RunError
 from diagrams.simulation import run_task
 from models.jvrc1 import JVRC1
@@ -49,6 +50,15 @@ def test_a_crossing_adds_the_obstacle_papers_figures(crossed_folder) -> None:
     } < names
     for name in names:
         assert np.ptp(imread(crossed_folder / "figures" / name)[:, :, :3]) > 0.5
+
+
+def test_the_top_view_shows_the_obstacle_as_it_was_seen(crossed_folder) -> None:
+    """Its outline lies about the true one, 1.2 m across."""
+    (ax,) = top_view(read_run_data(crossed_folder)).axes
+    (seen,) = (p for p in ax.patches if p.get_label() == "obstacle seen")
+    corners = seen.get_xy()
+    np.testing.assert_allclose(corners.min(axis=0), [1.175, -0.6], atol=0.02)
+    np.testing.assert_allclose(corners.max(axis=0), [1.225, 0.6], atol=0.02)
 
 
 def test_figures_do_without_what_was_not_logged(run_folder) -> None:

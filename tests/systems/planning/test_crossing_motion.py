@@ -72,6 +72,7 @@ def test_the_adaptor_repairs_what_the_key_configuration_leaves() -> None:
         double_support=0.14,
         lean=0.1,
         knee_margin=0.15,
+        waist_yaw=0.0,
         feet=FootTrajectoryParams(lead_pitch=0.2, trail_pitch=0.6, over_share=0.9),
     )
     bare = planned(0.05, 0.24, replace(params, max_repairs=0))[0].report
