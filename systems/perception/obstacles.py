@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+import shapely  # type: ignore[import-untyped]
 from scipy.ndimage import uniform_filter
 
 from models.validation import require_at_least, require_positive
@@ -103,7 +104,9 @@ def find_obstacles(
         if len(cluster) >= params.min_points:
             found.append(fit_obstacle(cluster, floor, viewpoint, params))
     found.sort(key=lambda item: float(np.linalg.norm(item.center - viewpoint[:2])))
-    return ObstacleMap(tuple(found), floor, "ok")
+    on_floor = points[np.abs(height) <= params.floor_window, :2]
+    outline = shapely.get_coordinates(shapely.MultiPoint(on_floor).convex_hull)
+    return ObstacleMap(tuple(found), floor, "ok", outline)
 
 
 def floor_height(z: Vector, window: float) -> float:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from time import perf_counter
 from typing import Any
 
+import numpy as np
 from pydrake.common.value import AbstractValue
 from pydrake.systems.framework import Context, LeafSystem, ValueProducer
 
@@ -20,10 +21,12 @@ from systems.planning.crossing_motion import plan_crossing
 from systems.planning.crossing_params import CrossingParams, Mode, reaching_high
 from systems.planning.crossing_report import CrossingReport
 from systems.planning.feasibility_unit import feasibility_unit
+from systems.planning.foothold import Refusal
 from systems.planning.footstep_params import FootstepPlannerParams
 from systems.planning.motion_params import MotionPlannerParams
 from systems.planning.quasi_static_check import balance_of
 from systems.planning.quasi_static_unit import quasi_static_unit
+from systems.planning.seen_way import seen_leg
 from systems.planning.whole_body_plan import WholeBody, waist_above_com
 from systems.plant_cache import declare_scratch_context
 from systems.ports import Vector, eval_abstract, eval_vector
@@ -156,18 +159,24 @@ class CrossingPlanner(LeafSystem):
             reason = "no floor was seen"
             return CrossingPlan(FootstepPlan((), "infeasible", reason), self._standing)
         sole = self._body.robot.sole
-        ahead = in_the_way(seen.obstacles, feet[:, :2].mean(axis=0), goal[:2], sole)
+        heading = np.angle(np.exp(1j * feet[:, 5]).sum())
+        start = np.array([*feet[:, :2].mean(axis=0), heading])
+        leg = seen_leg(seen, start, goal, sole)
+        if isinstance(leg, Refusal):
+            plan = FootstepPlan((), "infeasible", leg.reason)
+            return CrossingPlan(plan, self._standing)
+        ahead = in_the_way(leg.obstacles, start[:2], leg.goal[:2], sole)
         scratch = self._scratch(context)
         spent: dict[str, float] = {"FU": 0.0, "FTG to FTA": 0.0}
         refused = FootstepPlan()
         for crossing in self._ways if ahead else self._ways[:1]:
-            start = perf_counter()
+            begun = perf_counter()
             answers = self._feasibilities(ahead, crossing, scratch)
             steps = plan_crossing_steps(
-                feet, goal, ahead, answers, sole, self._footsteps
+                feet, leg.goal, ahead, answers, sole, self._footsteps
             )
             asked = perf_counter()
-            spent["FU"] += 1e3 * (asked - start)
+            spent["FU"] += 1e3 * (asked - begun)
             if steps.plan.status != "planned":
                 refused = steps.plan
                 continue
