@@ -84,7 +84,7 @@ def refuse_place(
         environment: floor and boxes.
         least: least distance to boxes and to the floor's edge, m.
     """
-    where = f"the {place} ({p[0]:.2f}, {p[1]:.2f}) m"
+    where = f"the {place} ({p[0]:z.2f}, {p[1]:z.2f}) m"
     point = shapely.Point(p)
     ground = shapely.Polygon(floor_outline(environment))
     if not ground.covers(point):

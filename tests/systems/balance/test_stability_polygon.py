@@ -188,6 +188,29 @@ def test_on_level_ground_it_is_the_hull_of_the_soles() -> None:
             assert hausdorff_distance(polygon.vertices, hull(contacts)) < 1e-9
 
 
+def test_every_yawed_stance_on_stairs_has_its_cone() -> None:
+    """Where cdd meets an inconsistency in one order of rows another is tried."""
+    rng = np.random.default_rng(0)
+    for _ in range(40):
+        rise, depth = rng.uniform(0.15, 0.25), rng.uniform(0.25, 0.32)
+        yaw = rng.uniform(-0.2, 0.2, 2)
+        side = rng.choice([-0.1, 0.1])
+        contacts = [
+            foot(0.0, side, 0.0, yaw=yaw[0]),
+            foot(depth, -side, rise, yaw=yaw[1]),
+        ]
+        polygon = static_polygon(contacts, "double_description")
+        assert polygon.method == "double_description"
+        assert not polygon.caught
+
+
+def test_wide_is_not_unbounded() -> None:
+    """Feet four metres apart, on the level."""
+    polygon = static_polygon([foot(-2.0, 0.1, 0.0), foot(2.0, -0.1, 0.0)])
+    assert polygon.status == "ok"
+    assert np.abs(polygon.vertices[:, 0]).max() == pytest.approx(2.12)
+
+
 def test_the_polygon_moves_with_the_stance() -> None:
     """Carried along and turned, far from the world's origin too."""
     X = RigidTransform(RollPitchYaw(0.0, 0.0, 0.8), [40.0, -25.0, 3.0])

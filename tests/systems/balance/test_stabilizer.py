@@ -6,6 +6,7 @@ from pydrake.systems.framework import Context
 from scipy.integrate import solve_ivp
 
 from models.jvrc1 import JVRC1
+from systems.balance import stabilizer
 from systems.balance.stabilizer import (
     BalanceCommand,
     Stabilizer,
@@ -145,6 +146,16 @@ def test_wrenches_carry_out_the_command() -> None:
     wanted = feedback(com, velocity).com_acceleration + np.array([0.0, 0.0, 9.81])
     np.testing.assert_allclose(force, MASS * wanted, atol=0.1)
     np.testing.assert_allclose(moment, rate, atol=0.1)
+
+
+def test_without_wrenches_it_does_not_go_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A programme that was not solved is no command."""
+    monkeypatch.setattr(
+        stabilizer, "distribute_wrench", lambda *args: (np.zeros((2, 6)), False)
+    )
+    system, context = make(COM, np.zeros(3))
+    with pytest.raises(RuntimeError, match="no foot wrenches near"):
+        system.GetOutputPort("foot_wrenches").Eval(context)
 
 
 def test_a_foot_in_the_air_gets_nothing() -> None:

@@ -103,8 +103,28 @@ def test_a_hand_joins_the_stance(monkeypatch: pytest.MonkeyPatch) -> None:
     system, context = at_rest((1.0, 1.0))
     hand = point_contact(RigidTransform([0.5, 0.3, 0.9]), 0.5)
     system.GetInputPort("other_contacts").FixValue(context, (hand,))
-    Simulator(system, context).AdvanceTo(0.1)
+    simulator = Simulator(system, context)
+    simulator.AdvanceTo(0.1)
     assert calls == [3]
+    # The soles stay, the hand lets go.
+    system.GetInputPort("other_contacts").FixValue(context, ())
+    simulator.AdvanceTo(0.2)
+    assert calls == [3, 2]
+
+
+def test_refused_results_are_counted(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One a computation, over all stances so far."""
+    monkeypatch.setattr(
+        static_stability,
+        "static_polygon",
+        lambda contacts: StabilityPolygon(status="infeasible", caught=True),
+    )
+    system, context = at_rest((1.0, 1.0))
+    simulator = Simulator(system, context)
+    simulator.AdvanceTo(0.1)
+    system.GetInputPort("contacts").FixValue(context, [1.0, 0.0, 0.24, 0.24])
+    simulator.AdvanceTo(0.2)
+    assert system.GetOutputPort("caught").Eval(context)[0] == 2.0
 
 
 def test_bad_soles_are_refused_at_once() -> None:

@@ -54,6 +54,12 @@ def one_step(rise: float, run: float = 0.327, gap: float = 0.08) -> MotionTask:
 
 
 @pytest.fixture
+def step_10cm() -> MotionTask:
+    """A step that is lower than a lifted heel."""
+    return one_step(0.10)
+
+
+@pytest.fixture
 def step_24cm() -> MotionTask:
     """The stair paper's step."""
     return one_step(0.24)

@@ -7,9 +7,11 @@ import pytest
 
 from systems.planning.crossing_params import CrossingParams
 from systems.planning.crossing_report import CrossingMotion
+from systems.planning.feasibility_unit import FeasibilityParams
 from systems.planning.feet_adaptor import ankle_displacement
 from systems.planning.foot_trajectory_generator import FootTrajectoryParams
 from systems.planning.leg_model import LegModel
+from systems.values import FEET
 from tests.systems.planning.crossing_cases import body, planned
 
 
@@ -92,3 +94,72 @@ def test_the_ankle_yields_as_the_jacobians_say() -> None:
     assert at_ankle == pytest.approx(0.01, abs=1e-6)
     assert 0.0 < half_way < 0.03
     assert half_way != pytest.approx(at_ankle, abs=1e-4)
+
+
+def test_contacts_are_those_of_the_phases(motion: CrossingMotion) -> None:
+    """A foot is off the ground from its lift to its landing, and only then."""
+    time = np.arange(len(motion.contacts)) * motion.period
+    for phase in motion.phases:
+        inside = (time > phase.start + 0.01) & (time < phase.end - 0.01)
+        want = [1.0 if foot in phase.stance else 0.0 for foot in FEET]
+        np.testing.assert_array_equal(
+            motion.contacts[inside], np.tile(want, (inside.sum(), 1))
+        )
+    for i in range(2):
+        moves = np.abs(np.diff(motion.foot_poses[:, i], axis=0)).max(axis=1) > 1e-9
+        assert not motion.contacts[:-1, i][moves].any()
+
+
+def test_speeds_accelerations_and_the_carts_zmp_belong_to_the_com(
+    motion: CrossingMotion,
+) -> None:
+    """One motion, said in four ways."""
+    rate = np.gradient(motion.com_velocity, motion.period, axis=0)
+    np.testing.assert_allclose(
+        rate[5:-5, :2], motion.com_acceleration[5:-5, :2], atol=0.08
+    )
+    np.testing.assert_allclose(
+        rate[5:-5, 2], motion.com_acceleration[5:-5, 2], atol=0.3
+    )
+    assert np.abs(motion.com_acceleration[:, 2]).max() > 0.3
+    cart = motion.com[:, :2] - 0.85 / 9.81 * motion.com_acceleration[:, :2]
+    np.testing.assert_allclose(motion.cart_zmp, cart, atol=1e-12)
+
+
+def test_the_arms_swing_in_the_plan() -> None:
+    """As the robot is to carry it out."""
+    plan = planned(0.05, 0.15, CrossingParams(arm_swing=-0.3))[0]
+    assert plan.arms.shape == (len(plan.zmp),)
+    assert plan.arms.min() == pytest.approx(-0.3)
+    assert plan.arms[0] == 0.0
+    assert abs(plan.arms[-1]) < 1e-9
+
+
+def test_fta_keeps_the_margins_beyond_the_true_obstacle() -> None:
+    """Those that it is given, over a high obstacle that needs every repair."""
+    params = CrossingParams(
+        single_support=1.5,
+        double_support=0.14,
+        lean=0.1,
+        knee_margin=0.15,
+        feet=FootTrajectoryParams(lead_pitch=0.2, trail_pitch=0.6, over_share=0.9),
+    )
+    wide, narrow = (
+        planned(
+            0.05,
+            0.25,
+            replace(params, feasibility=FeasibilityParams(s_w=margin, s_h=margin)),
+        )[0].report
+        for margin in (0.03, 0.005)
+    )
+    assert wide.gap > 0.03
+    assert 0.005 < narrow.gap < 0.03
+
+
+def test_a_knee_that_folds_too_far_raises_the_waist() -> None:
+    """The second repair: as far as the stance leg reaches."""
+    free = planned(0.05, 0.20, CrossingParams(fold_margin=0.0))[0]
+    tight = planned(0.05, 0.20, CrossingParams(fold_margin=0.4))[0]
+    assert free.report.repairs.raised == 0.0
+    assert tight.report.repairs.raised > 0.0
+    assert tight.com[:, 2].max() > free.com[:, 2].max()

@@ -5,6 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from pydrake.math import RigidTransform, RollPitchYaw
 
 from models.jvrc1 import JVRC1
 from systems.balance.convex_polygon import signed_margin
@@ -50,10 +51,61 @@ def test_a_step_is_the_paper_s_five_segments(step_24cm: MotionTask) -> None:
     np.testing.assert_allclose(segments[4].com[1][2], 0.24 + 0.85)
     np.testing.assert_allclose(segments[5].com[1], [0.327 + 0.035, 0.0, 0.24 + 0.85])
     np.testing.assert_allclose(segments[3].lengths, [0.01, JVRC1.sole.length])
+    assert segments[2].com[0][2] == segments[2].com[1][2]
     for before, after in pairwise(segments):
         np.testing.assert_array_equal(before.com[1], after.com[0])
         np.testing.assert_array_equal(before.end, after.start)
         assert before.lean[1] == after.lean[0]
+
+
+def test_a_segment_takes_as_long_as_its_way(step_24cm: MotionTask) -> None:
+    """The free foot's over the nosing, the CoM's line, or the least time."""
+    quasi = PARAMS.quasi_static
+    found = [segment.duration for segment in segments_of(step_24cm)]
+    up_and_down = 2.0 * PARAMS.swing.apex_clearance
+    rear = segments_of(step_24cm)[4]
+    moved = np.abs(rear.end[0, :3] - rear.start[0, :3])
+    along = np.hypot(0.327 + 0.12 - 0.035, -0.087 - 0.087)
+    ways = [
+        quasi.least_time,
+        (0.327 + 0.24 + up_and_down) / quasi.foot_speed,
+        None,
+        None,
+        (np.hypot(*moved[:2]) + moved[2] + up_and_down) / quasi.foot_speed,
+        None,
+    ]
+    for duration, wanted in zip(found, ways, strict=True):
+        if wanted is not None:
+            assert wanted - 1e-9 <= duration <= wanted + PARAMS.period
+    line = float(np.hypot(along, 0.24 + 0.7 - 0.85)) / quasi.com_speed
+    assert found[2] + found[3] >= line - 1e-9
+
+
+def test_walking_up_to_a_step_is_level_and_upright(step_24cm: MotionTask) -> None:
+    """The CoM keeps its height there and rests in the middle before the step."""
+    ahead = RigidTransform(np.array([0.2, 0.0, 0.0]))
+    near = tuple(
+        dataclasses.replace(
+            step, X_WF=RigidTransform([0.2, step.X_WF.translation()[1], 0.0])
+        )
+        for step in step_24cm.footsteps
+    )
+    up = tuple(
+        dataclasses.replace(step, X_WF=ahead.multiply(step.X_WF))
+        for step in step_24cm.footsteps
+    )
+    task = dataclasses.replace(
+        step_24cm, com=np.array([0.035, 0.0, 0.83]), footsteps=(*near, *up)
+    )
+    segments = segments_of(task)
+    names = [segment.name for segment in segments]
+    middles = [k for k, name in enumerate(names) if name == "CoM to the middle"]
+    assert middles == [4, len(names) - 1]
+    assert segments[0].com[1][2] == 0.83
+    for segment in segments[:5]:
+        np.testing.assert_array_equal(segment.lean, 0.0)
+    np.testing.assert_array_equal(segments[5].lean, [0.0, CLIMB.lean])
+    assert segments[-1].lean[1] == 0.0
 
 
 def test_com_stays_inside_the_polygon_all_along(step_24cm: MotionTask) -> None:
@@ -87,6 +139,78 @@ def test_lines_are_straight_and_slow(step_24cm: MotionTask) -> None:
     np.testing.assert_array_equal(plan.foot_poses[-1, :, 2], 0.24)
 
 
+def test_the_motion_is_that_of_its_segments(step_24cm: MotionTask) -> None:
+    """Feet, contacts, lengths and lean at both ends of each, at rest in between."""
+    plan, segments = played(step_24cm), segments_of(step_24cm)
+    rest = round(PARAMS.quasi_static.rest / plan.period)
+    for segment, phase in zip(segments, plan.phases, strict=True):
+        first, last = (round(t / plan.period) for t in (phase.start, phase.end))
+        moving, resting = slice(first, last - rest), slice(last - rest, last)
+        assert last - rest - first == round(segment.duration / plan.period)
+        np.testing.assert_allclose(plan.foot_poses[first], segment.start, atol=1e-9)
+        ended = plan.foot_poses[resting]
+        np.testing.assert_allclose(ended, np.tile(segment.end, (rest, 1, 1)), atol=1e-9)
+        np.testing.assert_allclose(plan.com[resting] - segment.com[1], 0.0, atol=1e-9)
+        np.testing.assert_allclose(plan.waist[first, 1], segment.lean[0], atol=1e-9)
+        np.testing.assert_allclose(plan.waist[resting, 1], segment.lean[1])
+        np.testing.assert_array_equal(
+            plan.contact_lengths[moving] - segment.lengths, 0.0
+        )
+        for i, foot in enumerate(("left", "right")):
+            standing = float(foot != segment.swing)
+            np.testing.assert_array_equal(plan.contacts[moving, i], standing)
+            np.testing.assert_array_equal(plan.contacts[resting, i], 1.0)
+
+
+def test_the_ground_rises_from_foot_to_foot(step_24cm: MotionTask) -> None:
+    """Under the CoM, which goes from over the lower one to over the upper one."""
+    plan = played(step_24cm)
+    over = [round(plan.phases[k].end / plan.period) - 1 for k in (1, 2, 3)]
+    lower, between, upper = plan.zmp[over, 2]
+    assert lower == 0.0
+    assert 0.0 < between < 0.24
+    assert upper == pytest.approx(0.24)
+
+
+def test_the_pelvis_faces_where_the_feet_do(step_24cm: MotionTask) -> None:
+    """The whole task turned: so are the feet and the pelvis at its end."""
+    turn = RigidTransform(RollPitchYaw(0.0, 0.0, 0.4), [0.0, 0.0, 0.0])
+    feet = step_24cm.feet.copy()
+    for pose in feet:
+        pose[:3] = turn.multiply(pose[:3])
+        pose[5] = 0.4
+    task = dataclasses.replace(
+        step_24cm,
+        feet=feet,
+        com=turn.multiply(step_24cm.com),
+        footsteps=tuple(
+            dataclasses.replace(step, X_WF=turn.multiply(step.X_WF))
+            for step in step_24cm.footsteps
+        ),
+        edges=np.array(turn.multiply(step_24cm.edges.T)).T.reshape(-1, 3),
+    )
+    plan = played(task)
+    np.testing.assert_allclose(plan.waist[:, 2], 0.4, atol=1e-9)
+    straight = played(step_24cm)
+    np.testing.assert_allclose(plan.com[-1], turn.multiply(straight.com[-1]), atol=1e-9)
+
+
+def test_a_lifted_rear_foot_clears_a_nosing_lower_than_its_heel(
+    step_10cm: MotionTask,
+) -> None:
+    """Its toes are on the ground, its sole frame above the tread."""
+    plan = played(step_10cm)
+    assert plan.foot_poses[round(plan.phases[3].end / plan.period) - 1, 0, 2] > 0.1
+    (edge,) = step_10cm.edges
+    swing = plan.foot_poses[plan.contacts[:, 0] < 0.5, 0]
+    tips = np.linspace(-JVRC1.sole.heel, JVRC1.sole.toe, 12)
+    x = swing[:, :1] + tips * np.cos(swing[:, 4:5])
+    z = swing[:, 2:3] - tips * np.sin(swing[:, 4:5])
+    above = np.abs(x - edge[0]) < 0.01
+    assert above.any()
+    assert (z[above] - edge[2]).min() > 0.01
+
+
 def test_a_line_that_ends_too_near_to_an_edge_is_told(step_24cm: MotionTask) -> None:
     """By segment and margin."""
     assert unstable_segment(segments_of(step_24cm), PARAMS, JVRC1) == ""
@@ -109,6 +233,8 @@ def test_a_stance_that_cannot_hold_is_told(step_24cm: MotionTask) -> None:
         "segment 1 (right foot to its place): its contacts cannot hold the robot, the "
         "polygon is empty"
     )
+    rough = dataclasses.replace(PARAMS, quasi_static=QuasiStaticParams(friction=1.5))
+    assert "empty" not in unstable_segment(broken, rough, JVRC1)
 
 
 @pytest.mark.parametrize(
