@@ -86,6 +86,18 @@ def test_a_path_pushes_the_second_foot_along_the_heading() -> None:
     assert not change[:, 1, 1:].any()
 
 
+def test_a_foot_near_the_obstacle_draws_back_before_its_margin() -> None:
+    """Until it is above it: the toe stays behind the inflated front face."""
+    steps, time, _ = _timed()
+    near = replace(BOX, center=np.array([0.17, 0.0]))
+    poses = feet_along(time, steps, FEET, (near,), body().leg, PARAMS, Repairs())
+    lead = poses[time <= steps[0].land, 0]
+    front = 0.17 - 0.025 - PARAMS.feasibility.s_w
+    back = lead[:, 0].min()
+    assert back == pytest.approx(front - body().leg.outline.toe, abs=8e-3)
+    assert back < -PARAMS.feet.retraction - 0.01
+
+
 def test_the_front_is_measured_along_the_obstacles_direction() -> None:
     """Before it positive, whatever the yaw."""
     assert front_distance(BOX, np.zeros(2)) == pytest.approx(0.24 - 0.025)

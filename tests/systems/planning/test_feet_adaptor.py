@@ -1,0 +1,153 @@
+"""FTA: the three repairs in their order, each as long as it helps."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from systems.obstacle_values import Obstacle
+from systems.planning.feet_adaptor import (
+    FAR,
+    KNOTS,
+    RAISE,
+    SHIFT,
+    LegPoses,
+    Repairs,
+    adapt,
+    leg_gaps,
+    penetration_path,
+)
+from systems.planning.leg_clearance import Section
+from systems.ports import Vector
+from tests.systems.planning.crossing_cases import body
+
+KNEES = (np.array([0.3, 0.3]), np.array([2.0, 2.0]))
+
+
+def _adapted(
+    gap: Callable[[Repairs], float],
+    knee: Callable[[Repairs], float] = lambda repairs: 1.0,
+    room: float = 0.1,
+    tries: int = 10,
+) -> Repairs:
+    """FTA with gaps and knees that depend on the repairs by formula."""
+    tried: list[Repairs] = []
+
+    def poses_of(repairs: Repairs) -> LegPoses:
+        tried.append(repairs)
+        return LegPoses(np.full((1, 2, 6), knee(repairs)), np.zeros((1, 2, 6)))
+
+    def second(poses: LegPoses, repairs: Repairs) -> Repairs:
+        pushed = np.zeros(KNOTS) if not repairs.path.size else repairs.path
+        return replace(repairs, path=pushed - 0.01)
+
+    return adapt(
+        poses_of,
+        lambda poses: np.full((1, 1, 2), gap(tried[-1])),
+        second,
+        KNEES,
+        room,
+        tries,
+    )
+
+
+def test_nothing_is_repaired_that_is_free() -> None:
+    """No gap, no change."""
+    assert _adapted(lambda repairs: 0.01) == Repairs()
+
+
+def test_the_foot_is_shifted_first() -> None:
+    """As far as it takes, and nothing else."""
+    found = _adapted(lambda repairs: -0.025 + repairs.shift)
+    assert found.shift == pytest.approx(3 * SHIFT)
+    assert found.raised == 0.0
+    assert not found.path.size
+
+
+def test_then_the_waist_is_raised_and_last_the_foot_yields() -> None:
+    """Each repair ends where it no longer helps."""
+    found = _adapted(
+        lambda repairs: (
+            -0.05
+            + min(repairs.shift, 0.02)
+            + min(repairs.raised, 0.01)
+            - (repairs.path.min() if repairs.path.size else 0.0)
+        )
+    )
+    assert found.shift == pytest.approx(2 * SHIFT)
+    assert found.raised == pytest.approx(RAISE)
+    np.testing.assert_allclose(found.path, -0.03)
+
+
+def test_the_waist_rises_no_higher_than_the_stance_leg_reaches() -> None:
+    """In the first round, for the knees, and as the second repair."""
+    for knee in (1.0, 2.5):
+        found = _adapted(
+            lambda repairs: -1.0 + repairs.raised,
+            lambda repairs, knee=knee: knee,  # type: ignore[misc]
+            room=0.035,
+        )
+        assert found.raised == pytest.approx(0.03)
+
+
+def test_a_stretched_knee_lowers_the_waist_a_folded_one_raises_it() -> None:
+    """Until neither is."""
+    low = _adapted(lambda repairs: 1.0, lambda repairs: 0.25 + 2.0 * repairs.lowered)
+    assert low.lowered == pytest.approx(0.03)
+    assert low.raised == 0.0
+    high = _adapted(lambda repairs: 1.0, lambda repairs: 2.1 - 5.0 * repairs.raised)
+    assert high.raised == pytest.approx(0.02)
+    assert high.lowered == 0.0
+
+
+def test_it_gives_up_after_its_tries_with_the_best_it_found() -> None:
+    """Which may still meet the obstacle."""
+    found = _adapted(lambda repairs: -1.0 + repairs.shift, tries=4)
+    assert found.shift == pytest.approx(4 * SHIFT)
+
+
+def test_the_path_pushes_to_the_rear_where_the_leg_is_deep() -> None:
+    """Smoothly, not at the ends, more for a point with more leverage, and adding up."""
+    share = np.linspace(0.0, 1.0, 101)
+    depth = np.where(np.abs(share - 0.4) < 0.03, 0.008, 0.0)
+    one = penetration_path(depth, share, np.ones(101), np.zeros(0))
+    two = penetration_path(depth, share, np.full(101, 2.0), np.zeros(0))
+    assert one is not None
+    assert two is not None
+    assert one.min() == pytest.approx(-0.010, abs=5e-4)
+    assert two.min() == pytest.approx(-0.018, abs=1e-3)
+    assert abs(np.linspace(0, 1, KNOTS)[np.argmin(one)] - 0.4) < 0.05
+    assert (one <= 0.0).all()
+    early = penetration_path(
+        np.where(share < 0.03, 0.02, 0.0), share, np.ones(101), np.zeros(0)
+    )
+    assert early is not None
+    assert early[[0, -1]] == pytest.approx(0.0)
+    again = penetration_path(depth, share, np.ones(101), one)
+    np.testing.assert_allclose(again, 2.0 * one)
+    assert penetration_path(0.0 * depth, share, np.ones(101), one) is None
+
+
+@pytest.mark.parametrize("x", [-1.0, -0.2, 0.6, 1.0])
+def test_far_legs_are_told_by_how_far_at_least(x: float) -> None:
+    """Near ones exactly: the same legs, an obstacle before or behind them."""
+    leg = body().leg
+    angles: Vector = np.tile([-0.6, 0.0, 0.0, 1.1, 0.0, -0.5], (1, 2, 1))
+    obstacle = Obstacle(np.array([x, 0.0]), 0.0, 0.05, 0.15, 1.0)
+    gaps = leg_gaps(
+        leg,
+        angles,
+        np.zeros((1, 2, 6)),
+        (obstacle,),
+        (Section(0.05, 0.15),),
+        [0.0],
+        0.0,
+    )
+    assert gaps.shape == (1, 1, 2)
+    toe, heel = leg.outline.toe, leg.outline.heel
+    reach = x - 0.025 - toe if x > 0.0 else -x - 0.025 - heel
+    # Shin and knee may be ahead of the toes.
+    assert (gaps <= reach + 1e-9).all()
+    assert (gaps > reach - 0.1).all()
+    assert (gaps > FAR).all() == (abs(x) > 0.5)
