@@ -120,6 +120,9 @@ class CrossingParams:
     most_zmp_error: float = 0.05
     """Most that the multibody ZMP may leave its reference after CWTG2, m: the sole
     reaches about as far to either side of it."""
+    most_torque: float = 1.0
+    """Largest share of a joint's effort limit that single support may take in the plan:
+    up to 1.02 the robot passed, from 1.09 on it fell."""
     knee_margin: float = 0.25
     """How far the knees keep off their straightest, rad: nearer to it they race."""
     fold_margin: float = 0.06
@@ -140,6 +143,7 @@ class CrossingParams:
         for name in ("single_support", "double_support", "sampling"):
             require_positive(name, getattr(self, name), "s")
         require_positive("most_zmp_error", self.most_zmp_error, "m")
+        require_positive("most_torque", self.most_torque)
         for name in (
             "zmp_forward",
             "waist_yaw",

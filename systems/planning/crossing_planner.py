@@ -250,6 +250,11 @@ def refusal_of(
             f"{what}: Eq. 20: the ZMP leaves its reference by {1e3 * error:.0f} mm, "
             f"more than {1e3 * crossing.most_zmp_error:.0f} mm"
         )
+    if report.torque_share > crossing.most_torque:
+        return (
+            f"{what}: {report.torque_joint} takes {report.torque_share:.2f} of its "
+            f"effort limit, more than {crossing.most_torque:.2f}"
+        )
     balance, quasi = report.balance, crossing.quasi_static
     if balance is None:
         return ""
