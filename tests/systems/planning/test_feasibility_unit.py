@@ -7,6 +7,7 @@ import pytest
 
 from systems.planning.feasibility_maps import feasibility_maps
 from systems.planning.feasibility_unit import (
+    Checked,
     FeasibilityParams,
     check_double_support,
     feasibility_unit,
@@ -95,3 +96,44 @@ def test_validation() -> None:
     """A field out of range is named."""
     with pytest.raises(ValueError, match="delta_ds: must lie in"):
         replace(FeasibilityParams(), delta_ds=1.5).validate()
+
+
+def _checked(X_ads: float, X_hds: float, Z_hds: float, section: Section) -> Checked:
+    """One double support, the obstacle in the middle between the ankles."""
+    front = np.array([0.5 * (X_ads - section.width)])
+    return check_double_support(
+        section,
+        np.array([X_ads]),
+        np.array([X_hds]),
+        np.array([Z_hds]),
+        front,
+        body().leg,
+    )
+
+
+def test_limits_are_those_of_the_worse_leg() -> None:
+    """Whichever is the rear one: mirrored, other joints of the other leg decide."""
+    section = Section(0.05, 0.05)
+    behind = _checked(0.42, 0.0, 0.62, section).limits[0]
+    ahead = _checked(0.42, 0.42, 0.62, section).limits[0]
+    middle = _checked(0.42, 0.21, 0.62, section).limits[0]
+    hip, knee, ankle = 0, 3, 5
+    # The leg under the waist is bent most, whether it is the rear or the front one.
+    assert behind[knee] == pytest.approx(ahead[knee], abs=1e-9)
+    assert behind[knee] > middle[knee] + 0.1
+    # A leg far behind the waist bends its ankle and stretches its hip most.
+    assert ahead[ankle] > behind[ankle] + 0.2
+    assert ahead[hip] > middle[hip] + 0.2
+
+
+def test_the_thigh_keeps_off_the_obstacle_too() -> None:
+    """One that reaches up between the legs nearly to the hips."""
+    gap = _checked(0.44, 0.22, 0.72, Section(0.05, 0.70)).gap[0]
+    assert gap <= 0.02 + 1e-9
+
+
+def test_the_knees_are_ahead_of_their_ankles() -> None:
+    """Rear and front, where the waist is low."""
+    rear, front = _checked(0.42, 0.21, 0.65, Section(0.05, 0.05)).knees[0]
+    assert 0.1 < rear < 0.42
+    assert front > 0.42
