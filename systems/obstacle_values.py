@@ -3,7 +3,7 @@
 As in `systems.values`: frozen, comparable, each with a JSON form. W: z up.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
@@ -41,6 +41,8 @@ class ObstacleMap(Value):
     """Of the ground that they stand on, in W, m; nan where no floor was seen."""
     status: Literal["none", "ok", "no floor"] = "none"
     """"none" before the first scan."""
+    floor_outline: Vector = field(default_factory=lambda: np.zeros((0, 2)))
+    """Corners of the hull of the floor that was seen, in W, (n, 2), m."""
 
 
 @dataclass(frozen=True, eq=False)

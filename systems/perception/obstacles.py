@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 
 import numpy as np
+import shapely  # type: ignore[import-untyped]
+from scipy.ndimage import uniform_filter
 
 from models.validation import require_at_least, require_positive
 from systems.obstacle_values import Obstacle, ObstacleMap
@@ -23,7 +25,13 @@ class ObstacleFinderParams:
     floor_window: float = 0.02
     """Half the thickness of the level of points that is the floor, m."""
     min_height: float = 0.02
-    """What is lower above the floor can be walked over, m."""
+    """Single points this far above the floor are not the floor's, m."""
+    low_height: float = 0.006
+    """What is lower above the floor, on the mean of a patch, is walked on, m."""
+    patch: float = 0.06
+    """Side of such a patch, m."""
+    deviation: float = 0.005
+    """Standard deviation of a point's height, m: the mean of few says less."""
     max_height: float = 1.2
     """What is higher above the floor is none, m."""
     radius: float = 0.06
@@ -51,12 +59,15 @@ class ObstacleFinderParams:
             "reach",
             "floor_window",
             "min_height",
+            "low_height",
+            "patch",
             "max_height",
             "radius",
             "cell",
             "top_window",
         ):
             require_positive(name, getattr(self, name), "m")
+        require_at_least("deviation", self.deviation, 0.0, "m")
         require_at_least("min_points", self.min_points, 3)
         if not 0.0 <= self.tail < 0.25:
             raise ValueError(f"tail: must lie in [0, 0.25), got {self.tail:g}")
@@ -67,9 +78,10 @@ def find_obstacles(
 ) -> ObstacleMap:
     """The obstacles in a cloud.
 
-    The floor is the densest level below the sensor. What stands out of it is grouped;
-    each group's top is its highest dense level, and the least rectangle that the top's
-    points fill is its footprint. Its thin side is what is stepped across.
+    The floor is the densest level below the sensor. What stands out of it, point by
+    point or where it is low on the mean of a patch, is grouped; each group's top is its
+    highest dense level, and the least rectangle that the top's points fill is its
+    footprint. Its thin side is what is stepped across.
 
     Args:
         points: in W, (n, 3), m.
@@ -83,7 +95,8 @@ def find_obstacles(
         return ObstacleMap(status="no floor")
     floor = floor_height(points[:, 2], params.floor_window)
     height = points[:, 2] - floor
-    above = points[(height > params.min_height) & (height < params.max_height)]
+    stands_out = (height > params.min_height) | low_patches(points, height, params)
+    above = points[stands_out & (height < params.max_height)]
     labels = cluster_points(above, params.radius, params.cell)
     found = []
     for label in range(labels.max(initial=-1) + 1):
@@ -91,7 +104,9 @@ def find_obstacles(
         if len(cluster) >= params.min_points:
             found.append(fit_obstacle(cluster, floor, viewpoint, params))
     found.sort(key=lambda item: float(np.linalg.norm(item.center - viewpoint[:2])))
-    return ObstacleMap(tuple(found), floor, "ok")
+    on_floor = points[np.abs(height) <= params.floor_window, :2]
+    outline = shapely.get_coordinates(shapely.MultiPoint(on_floor).convex_hull)
+    return ObstacleMap(tuple(found), floor, "ok", outline)
 
 
 def floor_height(z: Vector, window: float) -> float:
@@ -101,6 +116,44 @@ def floor_height(z: Vector, window: float) -> float:
     last = np.searchsorted(z, z + window, side="right")
     level = float(z[int(np.argmax(last - first))])
     return float(z[np.abs(z - level) <= window].mean())
+
+
+def low_patches(
+    points: Vector, height: Vector, params: ObstacleFinderParams
+) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    """Which points lie where the floor is raised by less than single points can tell.
+
+    Args:
+        points: (n, 3), m.
+        height: above the floor, (n,), m.
+        params: see there.
+
+    Returns:
+        (n,), true where the low points of the patch about a point are high enough on
+        the mean: by `low_height` and by five deviations of that mean.
+    """
+    raised = np.zeros(len(points), dtype=np.bool_)
+    low = np.flatnonzero(np.abs(height) <= params.min_height)
+    if not len(low):
+        return raised
+    cells = 3
+    index = np.floor(points[low, :2] / (params.patch / cells)).astype(np.int64)
+    index -= index.min(axis=0)
+    shape = index.max(axis=0) + 1
+    flat = np.ravel_multi_index((index[:, 0], index[:, 1]), shape)
+    sums = [
+        uniform_filter(
+            np.bincount(flat, weights, shape.prod()).reshape(shape) * cells**2,
+            cells,
+            mode="constant",
+        ).ravel()[flat]
+        for weights in (height[low], np.ones(len(low)))
+    ]
+    # A running sum leaves rounding behind: a count is whole.
+    count = np.maximum(np.rint(sums[1]), 1.0)
+    least = np.maximum(params.low_height, 5.0 * params.deviation / np.sqrt(count))
+    raised[low] = sums[0] / count > least
+    return raised
 
 
 def fit_obstacle(

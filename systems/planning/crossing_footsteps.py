@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from math import atan2
 
 import numpy as np
+import shapely  # type: ignore[import-untyped]
 from pydrake.math import RigidTransform, RollPitchYaw
 
 from models.robot import Sole
@@ -27,6 +28,12 @@ from systems.values import FEET, Foot, Footstep, FootstepPlan, other_foot
 CORRIDOR = 0.25
 """Half the width of the way that the feet take, m: they stay within, and arms are
 above what can be stepped over."""
+FAR = 100.0
+"""Longer than any way, m."""
+TOE_ROOM = 0.05
+"""What the toes keep of an obstacle beyond the goal, m."""
+STAND = 0.02
+"""So much before the place where they land beyond an obstacle the feet may end, m."""
 FLOOR = -1
 
 
@@ -82,13 +89,21 @@ def in_the_way(
     yaw = atan2(way[1], way[0])
     found = []
     for obstacle in obstacles:
-        p = rotate(-yaw, corners(obstacle) - start)
-        aside = p[:, 1].min() > CORRIDOR or p[:, 1].max() < -CORRIDOR
-        behind = p[:, 0].max() < -sole.heel
-        beyond = p[:, 0].min() > distance + sole.toe + 0.05
-        if not (aside or behind or beyond):
-            found.append((float(p[:, 0].min()), facing(obstacle, yaw)))
+        front, back = along_way(obstacle, start, yaw)
+        if back >= -sole.heel and front <= distance + sole.toe + TOE_ROOM:
+            found.append((front, facing(obstacle, yaw)))
     return tuple(obstacle for _, obstacle in sorted(found, key=lambda item: item[0]))
+
+
+def along_way(obstacle: Obstacle, start: Vector, yaw: float) -> tuple[float, float]:
+    """From where to where an obstacle lies in a way that begins at start (2,), m.
+
+    One beside the way is infinitely far, (inf, -inf).
+    """
+    footprint = shapely.Polygon(rotate(-yaw, corners(obstacle) - start))
+    corridor = shapely.box(-FAR, -CORRIDOR, FAR, CORRIDOR)
+    x = shapely.get_coordinates(shapely.intersection(footprint, corridor))[:, 0]
+    return float(x.min(initial=np.inf)), float(x.max(initial=-np.inf))
 
 
 def plan_crossing_steps(
@@ -150,6 +165,12 @@ def plan_crossing_steps(
             steps.append(_footstep(now[foot], z, index))
         keys.append(key)
         last = other_foot(lead)
+        short = beyond - float(rotate(-yaw, goal[:2])[0])
+        if index == len(obstacles) - 1 and short > STAND:
+            return _refused(
+                f"the goal is too near to {name}: beyond it the feet stand "
+                f"{short:.2f} m farther on"
+            )
     walked = _walk(now, goal[:2], float(goal[2]), last, z, sole, params)
     if isinstance(walked, Refusal):
         return _refused(f"the goal: {walked.reason}")

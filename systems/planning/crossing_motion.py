@@ -41,6 +41,7 @@ from systems.planning.feet_adaptor import LegPoses, Repairs, adapt, leg_gaps
 from systems.planning.leg_clearance import Section
 from systems.planning.motion_params import MotionPlannerParams
 from systems.planning.quasi_static_check import least_margin, worst_torque
+from systems.planning.single_support_torque import single_support_torque
 from systems.planning.step_timing import contact_phases
 from systems.planning.whole_body_plan import (
     BodyMotion,
@@ -136,6 +137,9 @@ def plan_crossing(
     if mode == "quasi_static":
         balance = course.static_balance(motion, com, poses, contacts, phases)
         report = dataclasses.replace(report, balance=balance)
+    else:
+        share, joint = course.torque(motion, contacts)
+        report = dataclasses.replace(report, torque_share=share, torque_joint=joint)
     return CrossingMotion(
         report=report,
         start_time=0.0,
@@ -334,6 +338,20 @@ class _Course:
             ),
             curves=BodyCurves(time, motion.waist, zmps[0], zmps[-1]),
         )
+
+    def torque(self, motion: BodyMotion, contacts: Vector) -> tuple[float, str]:
+        """Largest share of an effort limit while one foot carries in a crossing."""
+        window = crossing_rows(self.time[self.rows], self.steps)
+        carrying = np.where(window[:, None], contacts[self.rows], 0.0)
+        share, joint, _ = single_support_torque(
+            self.body,
+            self.context,
+            motion.q,
+            self._stride * self.walking.period,
+            carrying,
+            max(1, round(TORQUE_TICK / self.crossing.sampling)),
+        )
+        return share, joint
 
     def static_balance(
         self,

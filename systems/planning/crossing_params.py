@@ -20,6 +20,50 @@ Mode: TypeAlias = Literal["dynamic", "quasi_static"]
 
 
 @dataclass(kw_only=True)
+class HighCrossingParams:
+    """What is different over an obstacle that the first way of crossing cannot do.
+
+    The knees are the limit: smaller margins make the step shorter, a turned waist and
+    arms to the front let both legs reach farther, and straighter knees carry more.
+    """
+
+    single_support: float = 1.5
+    """Phases 1 and 3, s."""
+    double_support: float = 0.14
+    """Phase 2, s."""
+    lean: float = 0.1
+    """Forward pitch of the pelvis, rad."""
+    waist_yaw: float = 0.3
+    """Turn of the waist in phase 2, rad."""
+    arm_swing: float = -0.3
+    """How far the shoulders pitch back in phase 1, rad: to the front."""
+    knee_margin: float = 0.15
+    """How far the knees keep off their straightest, rad."""
+    margin: float = 0.03
+    """s_w and s_h, m: the paper's own; what the eyes and the feet err comes off it."""
+    least_gap: float = 0.025
+    """Least distance of the legs to the obstacle as it was seen, m."""
+    lead_pitch: float = 0.2
+    """Pitch of the first foot over the obstacle, rad."""
+    trail_pitch: float = 0.6
+    """Pitch of the second foot while it rises, rad."""
+    over_share: float = 0.9
+    """Share of that pitch that is left in the middle over the obstacle."""
+
+    def validate(self) -> None:
+        """Checks every field.
+
+        Raises:
+            ValueError: "field: reason, got x" for the first field that is wrong.
+        """
+        for name in ("single_support", "double_support"):
+            require_positive(name, getattr(self, name), "s")
+        for name in ("lean", "waist_yaw", "knee_margin", "margin", "over_share"):
+            require_at_least(name, getattr(self, name), 0.0)
+        require_finite("arm_swing", self.arm_swing)
+
+
+@dataclass(kw_only=True)
 class CrossingParams:
     """How obstacles are stepped over, besides how the robot walks."""
 
@@ -31,6 +75,8 @@ class CrossingParams:
         default_factory=QuasiStaticCrossingParams
     )
     """What is different in a quasi-static crossing."""
+    high: HighCrossingParams = field(default_factory=HighCrossingParams)
+    """What is different over an obstacle that the robot cannot cross otherwise."""
     single_support: float = 1.3
     """Phases 1 and 3, s (obstacle paper, Sec. V: 1.5)."""
     double_support: float = 0.20
@@ -71,6 +117,12 @@ class CrossingParams:
     most_short: float = 0.003
     """Most that an ankle of the planned motion may be out of reach, m; the IK makes
     that up in height."""
+    most_zmp_error: float = 0.05
+    """Most that the multibody ZMP may leave its reference after CWTG2, m: the sole
+    reaches about as far to either side of it."""
+    most_torque: float = 1.0
+    """Largest share of a joint's effort limit that single support may take in the plan:
+    up to 1.02 the robot passed, from 1.09 on it fell."""
     knee_margin: float = 0.25
     """How far the knees keep off their straightest, rad: nearer to it they race."""
     fold_margin: float = 0.06
@@ -87,8 +139,11 @@ class CrossingParams:
         self.feasibility.validate()
         self.feet.validate()
         self.quasi_static.validate()
+        self.high.validate()
         for name in ("single_support", "double_support", "sampling"):
             require_positive(name, getattr(self, name), "s")
+        require_positive("most_zmp_error", self.most_zmp_error, "m")
+        require_positive("most_torque", self.most_torque)
         for name in (
             "zmp_forward",
             "waist_yaw",
@@ -101,6 +156,28 @@ class CrossingParams:
         require_one_of("cwtg1", self.cwtg1, FORMS)
         require_at_least("filter_stages", self.filter_stages, 0)
         require_at_least("max_repairs", self.max_repairs, 0)
+
+
+def reaching_high(crossing: CrossingParams) -> CrossingParams:
+    """The same crossing in the way of `crossing.high`."""
+    high = crossing.high
+    return replace(
+        crossing,
+        feasibility=replace(crossing.feasibility, s_w=high.margin, s_h=high.margin),
+        feet=replace(
+            crossing.feet,
+            lead_pitch=high.lead_pitch,
+            trail_pitch=high.trail_pitch,
+            over_share=high.over_share,
+        ),
+        single_support=high.single_support,
+        double_support=high.double_support,
+        lean=high.lean,
+        waist_yaw=high.waist_yaw,
+        arm_swing=high.arm_swing,
+        knee_margin=high.knee_margin,
+        least_gap=high.least_gap,
+    )
 
 
 def slowed(

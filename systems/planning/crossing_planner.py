@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from time import perf_counter
 from typing import Any
 
+import numpy as np
 from pydrake.common.value import AbstractValue
 from pydrake.systems.framework import Context, LeafSystem, ValueProducer
 
@@ -13,18 +14,19 @@ from systems.balance.zmp_preview import ZmpPreviewParams
 from systems.obstacle_values import Feasibility, Obstacle, ObstacleMap
 from systems.planning.crossing_feet import section_of
 from systems.planning.crossing_footsteps import (
-    CrossingSteps,
     in_the_way,
     plan_crossing_steps,
 )
 from systems.planning.crossing_motion import plan_crossing
-from systems.planning.crossing_params import CrossingParams, Mode
+from systems.planning.crossing_params import CrossingParams, Mode, reaching_high
 from systems.planning.crossing_report import CrossingReport
 from systems.planning.feasibility_unit import feasibility_unit
+from systems.planning.foothold import Refusal
 from systems.planning.footstep_params import FootstepPlannerParams
 from systems.planning.motion_params import MotionPlannerParams
 from systems.planning.quasi_static_check import balance_of
 from systems.planning.quasi_static_unit import quasi_static_unit
+from systems.planning.seen_way import seen_leg
 from systems.planning.whole_body_plan import WholeBody, waist_above_com
 from systems.plant_cache import declare_scratch_context
 from systems.ports import Vector, eval_abstract, eval_vector
@@ -95,7 +97,10 @@ class CrossingPlanner(LeafSystem):
         for params in (footsteps, walking, crossing, preview):
             params.validate()
         self._footsteps, self._walking = footsteps, walking
-        self._crossing, self._preview, self._body = crossing, preview, body
+        self._preview, self._body = preview, body
+        # The first way that will do is taken.
+        dynamic = (crossing, reaching_high(crossing))
+        self._ways = dynamic if mode == "dynamic" else (crossing,)
         self._standing = standing
         self._mode: Mode = mode
         self._waist = walking.com_height + waist_above_com(body)
@@ -153,79 +158,114 @@ class CrossingPlanner(LeafSystem):
         if seen.status == "no floor":
             reason = "no floor was seen"
             return CrossingPlan(FootstepPlan((), "infeasible", reason), self._standing)
-        start = perf_counter()
         sole = self._body.robot.sole
-        ahead = in_the_way(seen.obstacles, feet[:, :2].mean(axis=0), goal[:2], sole)
-        answers = self._feasibilities(ahead, context)
-        steps = plan_crossing_steps(feet, goal, ahead, answers, sole, self._footsteps)
-        asked = perf_counter()
-        if steps.plan.status != "planned":
-            return CrossingPlan(steps.plan, self._standing)
-        motion = plan_crossing(
-            feet,
-            com,
-            steps.plan.footsteps,
-            steps.obstacles,
-            steps.keys,
-            self._walking,
-            self._crossing,
-            self._preview,
-            self._body,
-            self._scratch(context),
-            self._mode,
-        )
-        done = perf_counter()
-        times = (("FU", 1e3 * (asked - start)), ("FTG to FTA", 1e3 * (done - asked)))
-        report = dataclasses.replace(motion.report, planning_ms=times)
-        motion = dataclasses.replace(motion, report=report)
-        refusal = self._refusal(steps, report)
-        if refusal:
-            plan = FootstepPlan((), "infeasible", refusal)
+        heading = np.angle(np.exp(1j * feet[:, 5]).sum())
+        start = np.array([*feet[:, :2].mean(axis=0), heading])
+        leg = seen_leg(seen, start, goal, sole)
+        if isinstance(leg, Refusal):
+            plan = FootstepPlan((), "infeasible", leg.reason)
             return CrossingPlan(plan, self._standing)
-        return CrossingPlan(steps.plan, motion)
+        ahead = in_the_way(leg.obstacles, start[:2], leg.goal[:2], sole)
+        scratch = self._scratch(context)
+        spent: dict[str, float] = {"FU": 0.0, "FTG to FTA": 0.0}
+        refused = FootstepPlan()
+        for crossing in self._ways if ahead else self._ways[:1]:
+            begun = perf_counter()
+            answers = self._feasibilities(ahead, crossing, scratch)
+            steps = plan_crossing_steps(
+                feet, leg.goal, ahead, answers, sole, self._footsteps
+            )
+            asked = perf_counter()
+            spent["FU"] += 1e3 * (asked - begun)
+            if steps.plan.status != "planned":
+                refused = steps.plan
+                continue
+            motion = plan_crossing(
+                feet,
+                com,
+                steps.plan.footsteps,
+                steps.obstacles,
+                steps.keys,
+                self._walking,
+                crossing,
+                self._preview,
+                self._body,
+                scratch,
+                self._mode,
+            )
+            spent["FTG to FTA"] += 1e3 * (perf_counter() - asked)
+            report = dataclasses.replace(
+                motion.report, planning_ms=tuple(spent.items())
+            )
+            refusal = refusal_of(steps.obstacles, report, crossing)
+            if not refusal:
+                motion = dataclasses.replace(motion, report=report)
+                return CrossingPlan(steps.plan, motion)
+            refused = FootstepPlan((), "infeasible", refusal)
+        return CrossingPlan(refused, self._standing)
 
     def _feasibilities(
-        self, ahead: tuple[Obstacle, ...], context: Context
+        self, ahead: tuple[Obstacle, ...], crossing: CrossingParams, scratch: Context
     ) -> tuple[Feasibility, ...]:
         """FU for each obstacle."""
-        leg, params = self._body.leg, self._crossing.feasibility
+        leg, params = self._body.leg, crossing.feasibility
         sections = [section_of(obstacle) for obstacle in ahead]
         if self._mode == "dynamic":
             return tuple(
                 feasibility_unit(section, self._waist, leg, params)
                 for section in sections
             )
-        quasi = self._crossing.quasi_static
-        balance = balance_of(self._body, self._scratch(context), quasi)
+        quasi = crossing.quasi_static
+        balance = balance_of(self._body, scratch, quasi)
         return tuple(
             quasi_static_unit(section, self._waist, leg, params, quasi, balance)
             for section in sections
         )
 
-    def _refusal(self, steps: CrossingSteps, report: CrossingReport) -> str:
-        """Why the motion is not to be carried out; empty where it is."""
-        if not steps.obstacles:
-            return ""
-        highest = max(obstacle.height for obstacle in steps.obstacles)
-        what = f"the obstacle of {highest:.2f} m cannot be crossed"
-        if report.gap < self._crossing.least_gap:
-            return (
-                f"{what}: a leg comes within {1e3 * report.gap:.0f} mm of it, less "
-                f"than {1e3 * self._crossing.least_gap:.0f} mm, after all repairs"
-            )
-        if report.short > self._crossing.most_short:
-            return f"{what}: a leg is {1e3 * report.short:.0f} mm too short"
-        balance, quasi = report.balance, self._crossing.quasi_static
-        if balance is None:
-            return ""
-        if balance.margin < 0.5 * quasi.margin:
-            return (
-                f"{what}: Eq. 7: the CoM comes within {1e3 * balance.margin:.0f} mm of "
-                f"the support's edge, less than {500.0 * quasi.margin:.0f} mm"
-            )
-        if balance.torque_share > quasi.torque_share:
-            return (
-                f"{what}: {balance.joint} takes {balance.torque_share:.2f} of its "
-                f"effort limit, more than {quasi.torque_share:.2f}"
-            )
+
+def refusal_of(
+    obstacles: tuple[Obstacle, ...], report: CrossingReport, crossing: CrossingParams
+) -> str:
+    """Why a motion is not to be carried out; empty where it is.
+
+    Args:
+        obstacles: what it crosses.
+        report: how well it does.
+        crossing: what it has to keep.
+    """
+    if not obstacles:
         return ""
+    highest = max(obstacle.height for obstacle in obstacles)
+    what = f"the obstacle of {highest:.2f} m cannot be crossed"
+    if report.gap < crossing.least_gap:
+        return (
+            f"{what}: a leg comes within {1e3 * report.gap:.0f} mm of it, less "
+            f"than {1e3 * crossing.least_gap:.0f} mm, after all repairs"
+        )
+    if report.short > crossing.most_short:
+        return f"{what}: a leg is {1e3 * report.short:.0f} mm too short"
+    error = max(report.zmp_error_after)
+    if error > crossing.most_zmp_error:
+        return (
+            f"{what}: Eq. 20: the ZMP leaves its reference by {1e3 * error:.0f} mm, "
+            f"more than {1e3 * crossing.most_zmp_error:.0f} mm"
+        )
+    if report.torque_share > crossing.most_torque:
+        return (
+            f"{what}: {report.torque_joint} takes {report.torque_share:.2f} of its "
+            f"effort limit, more than {crossing.most_torque:.2f}"
+        )
+    balance, quasi = report.balance, crossing.quasi_static
+    if balance is None:
+        return ""
+    if balance.margin < 0.5 * quasi.margin:
+        return (
+            f"{what}: Eq. 7: the CoM comes within {1e3 * balance.margin:.0f} mm of "
+            f"the support's edge, less than {500.0 * quasi.margin:.0f} mm"
+        )
+    if balance.torque_share > quasi.torque_share:
+        return (
+            f"{what}: {balance.joint} takes {balance.torque_share:.2f} of its "
+            f"effort limit, more than {quasi.torque_share:.2f}"
+        )
+    return ""

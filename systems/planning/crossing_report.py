@@ -59,6 +59,11 @@ class CrossingReport(Value):
     """When phase 1 begins and phase 3 ends over each, s after the motion's start."""
     planning_ms: tuple[tuple[str, float], ...] = ()
     """Wall time of FU and of FTG to FTA, ms."""
+    torque_share: float = 0.0
+    """Largest share of a joint's effort limit that a dynamic crossing takes while one
+    foot carries; 0 of a quasi-static one."""
+    torque_joint: str = ""
+    """Which joint's."""
     balance: StaticBalance | None = None
     """Of a quasi-static motion; None of a dynamic one."""
     curves: BodyCurves | None = None

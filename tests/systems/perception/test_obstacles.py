@@ -93,3 +93,27 @@ def test_validation() -> None:
     """A field out of range is named."""
     with pytest.raises(ValueError, match="tail: must lie"):
         replace(ObstacleFinderParams(), tail=0.4).validate()
+
+
+@pytest.mark.parametrize("height", [0.010, 0.015, 0.025])
+def test_a_slat_lower_than_the_noise_is_seen(height: float) -> None:
+    """Single points cannot tell it from the floor, the mean of a patch can."""
+    seen = find_obstacles(
+        _cloud([(1.2, 0.1, 0.2, 0.05, 1.0, height)]), EYES, ObstacleFinderParams()
+    )
+    (found,) = seen.obstacles
+    assert found.height == pytest.approx(height, abs=0.006)
+    assert found.width == pytest.approx(0.05, abs=0.03)
+    assert found.center == pytest.approx([1.2, 0.1], abs=0.02)
+    assert found.length == pytest.approx(1.0, abs=0.08)
+
+
+def test_the_noise_of_the_floor_is_no_slat() -> None:
+    """Patches with few points are believed less."""
+    for seed in range(20):
+        rng = np.random.default_rng(seed)
+        floor = rng.uniform([0.4, -1.5], [2.9, 1.5], (12000, 2))
+        z = 0.005 * rng.standard_normal(12000)
+        seen = find_obstacles(np.column_stack([floor, z]), EYES, ObstacleFinderParams())
+        assert seen.status == "ok"
+        assert seen.obstacles == ()

@@ -100,3 +100,19 @@ def test_at_the_goal_nothing_is_left_to_do() -> None:
     feet[:, 1] = [0.095, -0.095]
     plan = plan_crossing_steps(feet, np.zeros(3), (), (), JVRC1.sole, PARAMS).plan
     assert plan.status == "finished"
+
+
+def test_a_goal_on_the_obstacle_or_too_near_beyond_it_is_refused() -> None:
+    """Before the feet would have to step back over it."""
+    assert "the goal is too near to the obstacle" in _plan(_obstacle(2.5)).plan.reason
+    assert _plan(_obstacle(2.28)).plan.status == "planned"
+
+
+def test_what_lies_beyond_the_goal_is_not_crossed() -> None:
+    """Nor is what is turned so that only its end beside the way is nearer."""
+    toes = float(GOAL[0]) + JVRC1.sole.toe
+    for obstacle in (
+        _obstacle(toes + 0.1),
+        _obstacle(toes + 0.3, yaw=0.7, length=2.0),
+    ):
+        assert in_the_way((obstacle,), np.zeros(2), GOAL[:2], JVRC1.sole) == ()

@@ -9,7 +9,7 @@ from pydrake.systems.framework import Context
 
 from systems.balance.zmp_preview import ZmpPreviewParams
 from systems.obstacle_values import Obstacle, ObstacleMap
-from systems.planning.crossing_params import CrossingParams, Mode
+from systems.planning.crossing_params import CrossingParams, HighCrossingParams, Mode
 from systems.planning.crossing_planner import CrossingPlanner
 from systems.planning.crossing_report import CrossingMotion
 from systems.planning.feasibility_unit import FeasibilityParams
@@ -26,6 +26,8 @@ PREVIEW = ZmpPreviewParams(com_height=0.85)
 FEET: Vector = np.array([[0.0, 0.095, 0.0, 0.0, 0.0, 0.0], [0.0, -0.095, 0, 0, 0, 0]])
 COM: Vector = np.array([0.035, 0.0, 0.83])
 STANDING = plan_motion(FEET, COM, (), np.zeros((0, 3)), WALKING, PREVIEW, body().robot)
+OUTLINE: Vector = np.array([[-0.2, -2.0], [3.0, -2.0], [3.0, 2.0], [-0.2, 2.0]])
+"""Of the floor that was seen."""
 NEAR = Obstacle(np.array([0.7, 0.0]), 0.0, 0.05, 0.15, 1.2)
 
 
@@ -47,7 +49,7 @@ def _make(
         mode,
     )
     context = system.CreateDefaultContext()
-    seen = ObstacleMap(obstacles, 0.0, status)  # type: ignore[arg-type]
+    seen = ObstacleMap(obstacles, 0.0, status, OUTLINE)  # type: ignore[arg-type]
     system.GetInputPort("obstacle_map").FixValue(context, AbstractValue.Make(seen))
     system.GetInputPort("goal").FixValue(context, list(goal))
     moving = np.concatenate([FEET.ravel(), np.full(12, 7.0)])
@@ -113,7 +115,9 @@ def test_at_the_goal_it_stands() -> None:
         (replace(NEAR, height=0.5), CrossingParams(), "dynamic", "0.50 m high"),
         (
             NEAR,
-            CrossingParams(least_gap=0.2, max_repairs=0),
+            CrossingParams(
+                least_gap=0.2, max_repairs=0, high=HighCrossingParams(least_gap=0.2)
+            ),
             "dynamic",
             "mm of it, less than 200 mm, after all repairs",
         ),
@@ -122,12 +126,25 @@ def test_at_the_goal_it_stands() -> None:
             CrossingParams(
                 max_repairs=0,
                 waist_yaw=0.0,
-                most_short=0.0,
+                most_short=-1.0,
                 least_gap=-1.0,
                 feasibility=FeasibilityParams(s_w=0.03, s_h=0.03, joint_margin=0.0),
+                high=HighCrossingParams(waist_yaw=0.0, least_gap=-1.0),
             ),
             "dynamic",
             "a leg is",
+        ),
+        (
+            NEAR,
+            CrossingParams(filter_stages=0, most_zmp_error=0.03),
+            "dynamic",
+            "Eq. 20: the ZMP leaves its reference by",
+        ),
+        (
+            NEAR,
+            CrossingParams(most_torque=0.5),
+            "dynamic",
+            "KNEE takes 0.7",
         ),
         (replace(NEAR, height=0.2), CrossingParams(), "quasi_static", "Eq. 6"),
         (
@@ -198,7 +215,7 @@ def test_one_plan_serves_both_ports_and_lasts_until_an_input_changes() -> None:
     changes = {
         "goal": [1.3, 0.0, 0.0],
         "obstacle_map": AbstractValue.Make(
-            ObstacleMap((replace(NEAR, width=0.06),), 0.0, "ok")
+            ObstacleMap((replace(NEAR, width=0.06),), 0.0, "ok", OUTLINE)
         ),
         "foot_references": np.concatenate([FEET.ravel() + 0.001, np.zeros(12)]),
         "com_reference": np.concatenate([COM + 0.003, np.zeros(6)]),
@@ -217,3 +234,47 @@ def test_a_wrong_parameter_is_refused() -> None:
     """When the System is made."""
     with pytest.raises(ValueError, match="single_support: must be"):
         _make(NEAR, crossing=CrossingParams(single_support=0.0))
+
+
+def test_a_high_obstacle_is_crossed_in_the_second_way() -> None:
+    """Where the first way is refused, in the pace and with the margins of the other."""
+    high = replace(NEAR, height=0.25)
+    first_only = CrossingParams(high=HighCrossingParams(least_gap=0.5))
+    assert _steps(*_make(high, crossing=first_only)).status == "infeasible"
+    motion = _motion(*_make(high))
+    assert isinstance(motion, CrossingMotion)
+    first, last = motion.report.phases[0]
+    params = HighCrossingParams()
+    assert last - first == pytest.approx(
+        2.0 * params.single_support + params.double_support
+    )
+    assert motion.report.gap > params.least_gap
+
+
+def test_what_is_not_seen_well_waits_for_the_next_look() -> None:
+    """It walks up to the obstacle at the edge of sight and stops before it."""
+    far = replace(NEAR, center=np.array([2.6, 0.0]))
+    system, context = _make(far, goal=(4.0, 0.0, 0.0))
+    plan = _steps(system, context)
+    assert plan.status == "planned"
+    assert {step.plane for step in plan.footsteps} == {-1}
+    ends = [step.X_WF.translation()[0] for step in plan.footsteps[-2:]]
+    assert max(ends) + body().robot.sole.toe < 2.575 - 0.15
+    assert min(ends) > 2.0
+
+
+def test_floor_that_was_not_seen_is_not_walked_on() -> None:
+    """A goal behind is turned to; without any floor ahead there is a refusal."""
+    system, context = _make(goal=(-2.0, 0.0, 0.0))
+    plan = _steps(system, context)
+    assert plan.status == "planned"
+    for step in plan.footsteps:
+        assert np.linalg.norm(step.X_WF.translation()[:2]) < 0.3
+    yaw = plan.footsteps[-1].X_WF.rotation().ToRollPitchYaw().yaw_angle()
+    assert abs(yaw) == pytest.approx(np.pi, abs=1e-3)
+    blind = ObstacleMap((), 0.0, "ok")
+    system.GetInputPort("obstacle_map").FixValue(context, AbstractValue.Make(blind))
+    system.GetInputPort("goal").FixValue(context, [2.0, 0.0, 0.0])
+    plan = _steps(system, context)
+    assert plan.status == "infeasible"
+    assert "the floor towards the goal is seen for 0.00 m only" in plan.reason
