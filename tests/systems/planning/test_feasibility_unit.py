@@ -127,9 +127,17 @@ def test_limits_are_those_of_the_worse_leg() -> None:
 
 
 def test_the_thigh_keeps_off_the_obstacle_too() -> None:
-    """One that reaches up between the legs nearly to the hips."""
-    gap = _checked(0.44, 0.22, 0.72, Section(0.05, 0.70)).gap[0]
-    assert gap <= 0.02 + 1e-9
+    """A narrow post under the front thigh, 7 cm off both shanks."""
+    post = Section(0.03, 0.60)
+    gap = check_double_support(
+        post,
+        np.array([0.56]),
+        np.array([0.28]),
+        np.array([0.78]),
+        np.array([0.36]),
+        body().leg,
+    ).gap[0]
+    assert 0.0 < gap < 0.03
 
 
 def test_the_knees_are_ahead_of_their_ankles() -> None:

@@ -7,8 +7,11 @@ from systems.balance.convex_polygon import signed_margin
 from systems.planning.crossing_params import CrossingParams, slowed
 from systems.planning.crossing_report import CrossingMotion
 from systems.planning.motion_params import MotionPlannerParams
+from systems.planning.quasi_static_check import worst_torque
+from systems.planning.whole_body_plan import body_motion
+from systems.ports import Vector
 from systems.values import FEET
-from tests.systems.planning.crossing_cases import body, planned
+from tests.systems.planning.crossing_cases import body, planned, scratch
 
 
 @pytest.fixture(scope="module")
@@ -44,6 +47,29 @@ def test_standing_is_within_the_effort_limits(motion: CrossingMotion) -> None:
     assert balance is not None
     assert 0.5 < balance.torque_share < 0.95
     assert balance.joint.endswith("KNEE")
+
+
+def test_one_leg_alone_carries_more_than_with_the_other() -> None:
+    """The same posture, the CoM over the left foot, with and without the right one."""
+    feet: Vector = np.zeros((1, 2, 6))
+    feet[:, 0, 1], feet[:, 1, 1] = 0.095, -0.095
+    stand = body_motion(
+        body(),
+        scratch(),
+        np.array([[0.03, 0.05]]),
+        np.array([0.70]),
+        np.zeros((1, 3)),
+        feet,
+        0.0,
+        rounds=5,
+    )
+    shares = [
+        worst_torque(body(), scratch(), stand.q, feet, np.array([contacts]))
+        for contacts in ([1.0, 1.0], [1.0, 0.0])
+    ]
+    assert shares[1][0] > shares[0][0] + 0.1
+    assert shares[0][1].startswith("L_")
+    assert shares[1][2] == 0
 
 
 def test_margins_and_reach(motion: CrossingMotion) -> None:
