@@ -48,6 +48,7 @@ from systems.planning.whole_body_plan import (
     WholeBody,
     body_motion,
     body_zmp,
+    waist_over,
 )
 from systems.ports import Vector
 from systems.values import FEET, ContactPhase, Footstep
@@ -105,7 +106,7 @@ def plan_crossing(
         zmp,
         rpy,
         arms,
-        _waist_over(body, context, com, feet, rpy[0]),
+        waist_over(body, context, com, feet, rpy[0]),
         obstacles,
         keys,
         walking,
@@ -392,25 +393,3 @@ def _offset(motion: BodyMotion) -> Vector:
     """Where the waist is beside the CoM, (n, 2), m."""
     offset: Vector = motion.waist[:, :2] - motion.com[:, :2]
     return offset
-
-
-def _waist_over(
-    body: WholeBody, context: Context, com: Vector, feet: Vector, rpy: Vector
-) -> Vector:
-    """Where the pelvis is when the CoM is at rest at `com`, (3,), m."""
-    height = com[2] - 0.02
-    waist = np.zeros(3)
-    for _ in range(8):
-        found = body_motion(
-            body,
-            context,
-            com[None, :2],
-            np.array([height]),
-            rpy[None],
-            feet[None],
-            0.0,
-            rounds=2,
-        )
-        height += com[2] - found.com[0, 2]
-        waist = found.waist[0]
-    return waist

@@ -95,6 +95,36 @@ def body_motion(
     return BodyMotion(q, waist, p_WCom, legs, short)
 
 
+def waist_over(
+    body: WholeBody, context: Context, com: Vector, feet: Vector, rpy: Vector
+) -> Vector:
+    """Where the pelvis is when the CoM is at rest at `com`, (3,), m.
+
+    Args:
+        body: the robot.
+        context: scratch context of its plant.
+        com: p_WCom, (3,), m.
+        feet: sole poses, (2, 6).
+        rpy: of the pelvis, (3,), rad.
+    """
+    height = com[2] - 0.02
+    waist = np.zeros(3)
+    for _ in range(8):
+        found = body_motion(
+            body,
+            context,
+            com[None, :2],
+            np.array([height]),
+            rpy[None],
+            feet[None],
+            0.0,
+            rounds=2,
+        )
+        height += com[2] - found.com[0, 2]
+        waist = found.waist[0]
+    return waist
+
+
 def waist_above_com(body: WholeBody) -> float:
     """Height of the pelvis above the CoM in the robot's posture, m; mostly negative."""
     plant = body.plant

@@ -10,6 +10,7 @@ from systems.planning.whole_body_plan import (
     quaternions,
     spins,
     waist_above_com,
+    waist_over,
 )
 from systems.ports import Vector
 from systems.values import FEET
@@ -120,3 +121,23 @@ def test_the_zmp_of_a_robot_at_rest_is_under_its_com() -> None:
 def test_the_waist_is_below_the_com_in_the_posture() -> None:
     """By some centimetres on this robot."""
     assert -0.08 < waist_above_com(body()) < 0.0
+
+
+def test_the_pelvis_is_found_for_a_com_that_rests() -> None:
+    """The body put there has its CoM where it was asked for, height included."""
+    feet: Vector = np.zeros((2, 6))
+    feet[0, 1], feet[1, 1] = 0.095, -0.095
+    com, rpy = np.array([0.03, 0.01, 0.82]), np.array([0.0, 0.1, 0.0])
+    waist = waist_over(body(), scratch(), com, feet, rpy)
+    motion = body_motion(
+        body(),
+        scratch(),
+        com[None, :2],
+        waist[None, 2],
+        rpy[None],
+        feet[None],
+        0.0,
+        (waist - com)[None, :2],
+        rounds=0,
+    )
+    np.testing.assert_allclose(motion.com[0], com, atol=2e-3)
