@@ -80,6 +80,13 @@ def feet_along(
             crossing.feet,
             repairs.shift if follows else 0.0,
         )
+        if step.obstacle >= 0:
+            # A folded leg has to reach down and outwards: under the swaying waist its
+            # hip would have to roll beyond its limit.
+            u = share_of(step, time[inside])
+            left = across(obstacles[step.obstacle].yaw + np.pi / 2.0)
+            inward = crossing.inward if step.foot == "right" else -crossing.inward
+            poses[inside, i, :2] += np.outer(inward * 16.0 * (u * (1.0 - u)) ** 2, left)
         if follows and repairs.path.size:
             shares = np.linspace(0.0, 1.0, len(repairs.path))
             push = np.interp(share_of(step, time[inside]), shares, repairs.path)

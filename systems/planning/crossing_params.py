@@ -39,6 +39,8 @@ class HighCrossingParams:
     """How far the shoulders pitch back in phase 1, rad: to the front."""
     knee_margin: float = 0.15
     """How far the knees keep off their straightest, rad."""
+    inward: float = 0.05
+    """How far the foot over the obstacle is drawn towards the other one, m."""
     margin: float = 0.03
     """s_w and s_h, m: the paper's own; what the eyes and the feet err comes off it."""
     least_gap: float = 0.025
@@ -58,7 +60,14 @@ class HighCrossingParams:
         """
         for name in ("single_support", "double_support"):
             require_positive(name, getattr(self, name), "s")
-        for name in ("lean", "waist_yaw", "knee_margin", "margin", "over_share"):
+        for name in (
+            "lean",
+            "waist_yaw",
+            "inward",
+            "knee_margin",
+            "margin",
+            "over_share",
+        ):
             require_at_least(name, getattr(self, name), 0.0)
         require_finite("arm_swing", self.arm_swing)
 
@@ -102,6 +111,9 @@ class CrossingParams:
     stretch its knee by another 0.08 rad."""
     lean: float = 0.0
     """Forward pitch of the pelvis while crossing, rad."""
+    inward: float = 0.03
+    """How far the foot over the obstacle is drawn towards the other one, m: the waist
+    sways to that side, and a folded leg that hangs outwards rolls its hip too far."""
     sampling: float = 0.010
     """Of the whole-body motion that is planned, s; a multiple of the plan's period.
     Looked at every 5 ms the ZMP over 25 cm errs by 10 mm at most, with 15 ms by 13."""
@@ -117,6 +129,9 @@ class CrossingParams:
     most_short: float = 0.003
     """Most that an ankle of the planned motion may be out of reach, m; the IK makes
     that up in height."""
+    least_limit: float = 0.02
+    """Least distance of the legs' joints to their limits, rad: as much as the IK that
+    tracks the plan keeps itself."""
     most_zmp_error: float = 0.05
     """Most that the multibody ZMP may leave its reference after CWTG2, m: the sole
     reaches about as far to either side of it."""
@@ -148,6 +163,7 @@ class CrossingParams:
             "zmp_forward",
             "waist_yaw",
             "lean",
+            "inward",
             "knee_margin",
             "fold_margin",
         ):
@@ -175,6 +191,7 @@ def reaching_high(crossing: CrossingParams) -> CrossingParams:
         lean=high.lean,
         waist_yaw=high.waist_yaw,
         arm_swing=high.arm_swing,
+        inward=high.inward,
         knee_margin=high.knee_margin,
         least_gap=high.least_gap,
     )
