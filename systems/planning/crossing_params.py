@@ -96,6 +96,8 @@ class CrossingParams:
     zmp_rolling: float = 0.05
     """How far the ZMP moves on towards the toes in phase 1, m: the waist is then
     farther ahead when the first foot lands, and the rear knee has less to carry."""
+    zmp_rounding: float = 0.045
+    """Over how long the corners of the desired ZMP are rounded, s."""
     waist_share: float = 0.6
     """Share of phase 1, its last, in which the waist is lowered, and of phase 3, its
     first, in which it is raised; the paper takes the whole phases, but a leg that is
@@ -161,6 +163,7 @@ class CrossingParams:
         require_positive("most_torque", self.most_torque)
         for name in (
             "zmp_forward",
+            "zmp_rounding",
             "waist_yaw",
             "lean",
             "inward",

@@ -19,7 +19,7 @@ from systems.planning.crossing_footsteps import (
 )
 from systems.planning.crossing_motion import plan_crossing
 from systems.planning.crossing_params import CrossingParams, Mode, reaching_high
-from systems.planning.crossing_report import CrossingReport
+from systems.planning.crossing_report import refusal_of
 from systems.planning.feasibility_unit import feasibility_unit
 from systems.planning.foothold import Refusal
 from systems.planning.footstep_params import FootstepPlannerParams
@@ -192,12 +192,13 @@ class CrossingPlanner(LeafSystem):
                 self._body,
                 scratch,
                 self._mode,
+                give_up=True,
             )
             spent["FTG to FTA"] += 1e3 * (perf_counter() - asked)
             report = dataclasses.replace(
                 motion.report, planning_ms=tuple(spent.items())
             )
-            refusal = refusal_of(steps.obstacles, report, crossing)
+            refusal = refusal_of(report, crossing)
             if not refusal:
                 motion = dataclasses.replace(motion, report=report)
                 return CrossingPlan(steps.plan, motion)
@@ -221,51 +222,3 @@ class CrossingPlanner(LeafSystem):
             quasi_static_unit(section, self._waist, leg, params, quasi, balance)
             for section in sections
         )
-
-
-def refusal_of(
-    obstacles: tuple[Obstacle, ...], report: CrossingReport, crossing: CrossingParams
-) -> str:
-    """Why a motion is not to be carried out; empty where it is.
-
-    Args:
-        obstacles: what it crosses.
-        report: how well it does.
-        crossing: what it has to keep.
-    """
-    if not obstacles:
-        return ""
-    highest = max(obstacle.height for obstacle in obstacles)
-    what = f"the obstacle of {highest:.2f} m cannot be crossed"
-    if report.gap < crossing.least_gap:
-        return (
-            f"{what}: a leg comes within {1e3 * report.gap:.0f} mm of it, less "
-            f"than {1e3 * crossing.least_gap:.0f} mm, after all repairs"
-        )
-    if report.short > crossing.most_short:
-        return f"{what}: a leg is {1e3 * report.short:.0f} mm too short"
-    error = max(report.zmp_error_after)
-    if error > crossing.most_zmp_error:
-        return (
-            f"{what}: Eq. 20: the ZMP leaves its reference by {1e3 * error:.0f} mm, "
-            f"more than {1e3 * crossing.most_zmp_error:.0f} mm"
-        )
-    if report.torque_share > crossing.most_torque:
-        return (
-            f"{what}: {report.torque_joint} takes {report.torque_share:.2f} of its "
-            f"effort limit, more than {crossing.most_torque:.2f}"
-        )
-    balance, quasi = report.balance, crossing.quasi_static
-    if balance is None:
-        return ""
-    if balance.margin < 0.5 * quasi.margin:
-        return (
-            f"{what}: Eq. 7: the CoM comes within {1e3 * balance.margin:.0f} mm of "
-            f"the support's edge, less than {500.0 * quasi.margin:.0f} mm"
-        )
-    if balance.torque_share > quasi.torque_share:
-        return (
-            f"{what}: {balance.joint} takes {balance.torque_share:.2f} of its "
-            f"effort limit, more than {quasi.torque_share:.2f}"
-        )
-    return ""

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from systems.obstacle_values import KeyConfiguration, Obstacle
+from systems.planning.crossing_params import CrossingParams
 from systems.planning.feet_adaptor import Repairs
 from systems.ports import Vector
 from systems.values import MotionPlan, Value
@@ -64,6 +65,10 @@ class CrossingReport(Value):
     foot carries; 0 of a quasi-static one."""
     torque_joint: str = ""
     """Which joint's."""
+    limit_distance: float = float("inf")
+    """Least distance of a leg's joint to its limits while the robot crosses, rad."""
+    limit_joint: str = ""
+    """Which joint's."""
     balance: StaticBalance | None = None
     """Of a quasi-static motion; None of a dynamic one."""
     curves: BodyCurves | None = None
@@ -75,3 +80,53 @@ class CrossingMotion(MotionPlan):
     """A motion over obstacles and how well it does."""
 
     report: CrossingReport
+
+
+def refusal_of(report: CrossingReport, crossing: CrossingParams) -> str:
+    """Why a motion is not to be carried out; empty where it is.
+
+    Args:
+        report: how well it does.
+        crossing: what it has to keep.
+    """
+    if not report.obstacles:
+        return ""
+    highest = max(obstacle.height for obstacle in report.obstacles)
+    what = f"the obstacle of {highest:.2f} m cannot be crossed"
+    if report.gap < crossing.least_gap:
+        return (
+            f"{what}: a leg comes within {1e3 * report.gap:.0f} mm of it, less "
+            f"than {1e3 * crossing.least_gap:.0f} mm, after all repairs"
+        )
+    if report.short > crossing.most_short:
+        return f"{what}: a leg is {1e3 * report.short:.0f} mm too short"
+    if report.limit_distance < crossing.least_limit:
+        return (
+            f"{what}: {report.limit_joint} comes within {report.limit_distance:.2f} "
+            f"rad of its limit, less than {crossing.least_limit:.2f} rad"
+        )
+    if report.torque_share > crossing.most_torque:
+        return (
+            f"{what}: {report.torque_joint} takes {report.torque_share:.2f} of its "
+            f"effort limit, more than {crossing.most_torque:.2f}"
+        )
+    error = max(report.zmp_error_after)
+    if error > crossing.most_zmp_error:
+        return (
+            f"{what}: Eq. 20: the ZMP leaves its reference by {1e3 * error:.0f} mm, "
+            f"more than {1e3 * crossing.most_zmp_error:.0f} mm"
+        )
+    balance, quasi = report.balance, crossing.quasi_static
+    if balance is None:
+        return ""
+    if balance.margin < 0.5 * quasi.margin:
+        return (
+            f"{what}: Eq. 7: the CoM comes within {1e3 * balance.margin:.0f} mm of "
+            f"the support's edge, less than {500.0 * quasi.margin:.0f} mm"
+        )
+    if balance.torque_share > quasi.torque_share:
+        return (
+            f"{what}: {balance.joint} takes {balance.torque_share:.2f} of its "
+            f"effort limit, more than {quasi.torque_share:.2f}"
+        )
+    return ""

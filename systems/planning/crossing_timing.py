@@ -2,6 +2,9 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+from scipy.ndimage import uniform_filter1d
+
 from systems.planning.crossing_params import CrossingParams, Mode
 from systems.planning.motion_params import MotionPlannerParams
 from systems.planning.step_timing import (
@@ -80,6 +83,8 @@ def zmp_reference(
 ) -> Vector:
     """ZMP_des(t): rests on the stance foot, moves over in double support, (n, 3), m.
 
+    Where it sets off and arrives its corners are rounded over `crossing.zmp_rounding`.
+
     Args:
         time: (n,), s.
         steps: of the motion.
@@ -104,4 +109,9 @@ def zmp_reference(
         keys.append((step.land, stance_zmp(step.stance, stance, ahead, walking)))
     final = middle_zmp(final_feet(feet, steps), walking)
     keys.append((end - 0.4 * walking.lead_out, final))
-    return along_keys(time, keys, eased=mode == "quasi_static")
+    if mode == "quasi_static":
+        return along_keys(time, keys, eased=True)
+    # No body follows a corner: the mean over a short window takes it off.
+    window = max(1, round(crossing.zmp_rounding / walking.period))
+    sharp = along_keys(time, keys)
+    return np.asarray(uniform_filter1d(sharp, window, axis=0, mode="nearest"))

@@ -171,7 +171,8 @@ def test_the_zmp_rolls_on_in_phase_1_alone() -> None:
     """Towards the toes of the rear foot."""
     steps, _, end = _timed()
     time = np.array([step.land for step in steps[:3]])
-    zmp = zmp_reference(time, steps, FEET, COM, end, WALKING, PARAMS)
+    sharp = replace(PARAMS, zmp_rounding=0.0)
+    zmp = zmp_reference(time, steps, FEET, COM, end, WALKING, sharp)
     ahead = zmp[:, 0] - [step.stance[0] for step in steps[:3]]
     rolled = PARAMS.zmp_forward + PARAMS.zmp_rolling
     np.testing.assert_allclose(
@@ -200,3 +201,54 @@ def test_double_supports_about_a_crossing_have_their_own_time() -> None:
     slow, fast = PARAMS.single_support, WALKING.single_support
     assert single == pytest.approx([fast, slow, slow, fast, fast])
     assert [step.leads for step in steps] == [False, True, False, False, False]
+
+
+def test_the_corners_of_the_zmp_are_rounded() -> None:
+    """Its speed no longer jumps; in between it is where it was."""
+    steps, _, end = _timed()
+    time = np.arange(0.0, end, WALKING.period)
+    sharp, round_ = (
+        zmp_reference(
+            time,
+            steps,
+            FEET,
+            COM,
+            end,
+            WALKING,
+            replace(PARAMS, zmp_rounding=rounding),
+        )
+        for rounding in (0.0, 0.045)
+    )
+    jumps = [np.abs(np.diff(zmp[:, 1], n=2)).max() for zmp in (sharp, round_)]
+    assert jumps[1] < 0.2 * jumps[0]
+    corners = np.array([t for step in steps for t in (step.lift, step.land)])
+    far = np.abs(time[:, None] - corners).min(axis=1) > 0.05
+    far &= (time > steps[0].lift) & (time < steps[-1].land)
+    np.testing.assert_allclose(round_[far, 1], sharp[far, 1], atol=1e-9)
+
+
+def test_a_foot_over_the_obstacle_is_drawn_inwards() -> None:
+    """Both feet towards the other, in the air alone."""
+    steps, time, _ = _timed()
+    straight, drawn = (
+        feet_along(
+            time,
+            steps,
+            FEET,
+            (BOX,),
+            body().leg,
+            replace(PARAMS, inward=inward),
+            Repairs(),
+        )
+        for inward in (0.0, 0.04)
+    )
+    shift = drawn - straight
+    assert shift[:, 0, 1].min() == pytest.approx(-0.04, abs=1e-3)
+    assert shift[:, 1, 1].max() == pytest.approx(0.04, abs=1e-3)
+    assert shift[:, 0, 1].max() <= 0.0 <= shift[:, 1, 1].min()
+    crossing = np.zeros(len(time), dtype=bool)
+    for step in steps:
+        if step.obstacle >= 0:
+            crossing |= (time > step.lift) & (time < step.land)
+    np.testing.assert_allclose(shift[~crossing], 0.0, atol=1e-12)
+    np.testing.assert_allclose(np.delete(shift, 1, axis=2), 0.0, atol=1e-12)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from systems.planning.crossing_params import CrossingParams
+from systems.planning.crossing_params import CrossingParams, reaching_high
 from systems.planning.crossing_report import CrossingMotion
 from systems.planning.feasibility_unit import FeasibilityParams
 from systems.planning.feet_adaptor import ankle_displacement
@@ -163,3 +163,26 @@ def test_a_knee_that_folds_too_far_raises_the_waist() -> None:
     assert free.report.repairs.raised == 0.0
     assert tight.report.repairs.raised > 0.0
     assert tight.com[:, 2].max() > free.com[:, 2].max()
+
+
+def test_the_plan_stays_within_torque_and_joint_limits(motion: CrossingMotion) -> None:
+    """And says what comes nearest to them."""
+    report = motion.report
+    assert 0.5 < report.torque_share < 1.0
+    assert report.torque_joint.endswith("KNEE")
+    assert report.limit_distance > 0.05
+    assert report.limit_joint in {
+        name for joints in body().robot.leg_joints.values() for name in joints
+    }
+
+
+def test_a_foot_that_is_not_drawn_in_rolls_the_hip_beyond_its_limit() -> None:
+    """Over 25 cm, in the way for high obstacles."""
+    params = reaching_high(CrossingParams())
+    drawn, hanging = (
+        planned(0.05, 0.25, replace(params, inward=inward))[0].report
+        for inward in (params.inward, 0.0)
+    )
+    assert drawn.limit_distance > 0.02
+    assert hanging.limit_distance < 0.0
+    assert hanging.limit_joint.endswith("HIP_R")

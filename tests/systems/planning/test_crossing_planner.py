@@ -144,7 +144,15 @@ def test_at_the_goal_it_stands() -> None:
             NEAR,
             CrossingParams(most_torque=0.5),
             "dynamic",
-            "KNEE takes 0.7",
+            "KNEE takes 0.",
+        ),
+        (
+            NEAR,
+            CrossingParams(
+                least_limit=0.3, inward=0.0, high=HighCrossingParams(inward=0.0)
+            ),
+            "dynamic",
+            "rad of its limit, less than 0.30 rad",
         ),
         (replace(NEAR, height=0.2), CrossingParams(), "quasi_static", "Eq. 6"),
         (
