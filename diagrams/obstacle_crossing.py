@@ -1,14 +1,14 @@
 """Step over what lies in the way without stopping (obstacle paper, closed loop)."""
 
 import numpy as np
-from pydrake.geometry import Meshcat, MeshcatVisualizer
+from pydrake.geometry import Meshcat
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.systems.framework import DiagramBuilder
 from pydrake.systems.primitives import ConstantVectorSource
 
 from diagrams.scenario import ROBOTS, Scenario
 from diagrams.station import add_lidar, add_station
-from diagrams.task_diagram import TaskDiagram
+from diagrams.task_diagram import TaskDiagram, build_diagram
 from diagrams.walking import add_walking, initial_stand
 from diagrams.walking_signals import VALUE_PERIOD, record_walking
 from diagrams.wiring import add_system
@@ -20,7 +20,6 @@ from systems.planning.executive import Executive
 from systems.planning.leg_model import leg_model, leg_outline
 from systems.planning.whole_body_plan import WholeBody
 from systems.ports import Vector
-from systems.tracking.whole_body_ik import WholeBodyIk
 
 FORBIDDEN = ("box/", "room/wall", "room/ceiling")
 """What the robot must not touch, with its soles neither."""
@@ -67,8 +66,7 @@ def build_obstacle_crossing(
         builder.Connect(assembler.GetOutputPort(port), finder.GetInputPort(port))
     builder.Connect(lidar.GetOutputPort("viewpoint"), finder.GetInputPort("viewpoint"))
 
-    ik = WholeBodyIk(station.model, robot, params.ik)
-    stand = initial_stand(scenario, robot, ik, station)
+    stand = initial_stand(scenario, station)
     goal: Vector = np.array(scenario.task.goal, dtype=np.float64)
     goal_source = add_system(builder, "goal", ConstantVectorSource(goal))
     planner = add_system(
@@ -97,37 +95,21 @@ def build_obstacle_crossing(
     for port in ("footstep_plan", "motion_plan"):
         builder.Connect(planner.GetOutputPort(port), executive.GetInputPort(port))
 
-    walking = add_walking(
-        builder, scenario, station, stand, executive.GetOutputPort("motion_plan")
-    )
-    builder.Connect(
-        walking.landing.GetOutputPort("foot_references"),
-        planner.GetInputPort("foot_references"),
-    )
-    builder.Connect(walking.com_reference, planner.GetInputPort("com_reference"))
-
-    recorder = record_walking(builder, station, walking)
+    walking = add_walking(builder, scenario, station, stand, executive, planner)
+    recorder = record_walking(builder, station, walking, executive)
     for name, output in (
-        ("executive.status", executive.GetOutputPort("status")),
-        ("executive.footstep_plan", executive.GetOutputPort("footstep_plan")),
         ("executive.motion_plan", executive.GetOutputPort("motion_plan")),
         ("obstacle_finder.obstacle_map", finder.GetOutputPort("obstacle_map")),
     ):
         recorder.add_value(name, output, VALUE_PERIOD)
 
-    if meshcat is not None:
-        MeshcatVisualizer.AddToBuilder(builder, station.scene_graph, meshcat)
-    station.plant.SetDefaultPositions(station.instance, stand.positions)
-    diagram = builder.Build()
-    diagram.set_name("obstacle_crossing")
-    return TaskDiagram(
-        diagram=diagram,
-        plant=station.plant,
-        robot_instance=station.instance,
-        robot=robot,
-        scene=scenario.scene,
-        signals=recorder,
-        status=executive.GetOutputPort("status"),
-        goal=(goal[0], goal[1], goal[2]),
+    return build_diagram(
+        builder,
+        scenario,
+        station,
+        stand,
+        executive,
+        recorder,
+        goal=goal,
         meshcat=meshcat,
     )

@@ -2,7 +2,7 @@
 
 import numpy as np
 from pydrake.common.value import AbstractValue
-from pydrake.geometry import Meshcat, MeshcatVisualizer
+from pydrake.geometry import Meshcat
 from pydrake.systems.framework import DiagramBuilder
 from pydrake.systems.primitives import ConstantValueSource, ConstantVectorSource
 
@@ -10,7 +10,7 @@ from diagrams.evidence import MOVERS_SIGNAL
 from diagrams.room_perception import add_perception
 from diagrams.scenario import ROBOTS, Scenario
 from diagrams.station import add_station
-from diagrams.task_diagram import TaskDiagram
+from diagrams.task_diagram import TaskDiagram, build_diagram
 from diagrams.walking import add_walking, initial_stand
 from diagrams.walking_signals import SIGNAL_PERIOD, VALUE_PERIOD, record_walking
 from diagrams.wiring import add_system
@@ -20,7 +20,6 @@ from systems.planning.path_executive import PathExecutive
 from systems.planning.path_footstep_planner import PathFootstepPlanner
 from systems.planning.path_planner import PathPlanner
 from systems.ports import Vector
-from systems.tracking.whole_body_ik import WholeBodyIk
 from systems.values import MotionPlan, Staircase
 
 FORBIDDEN = ("box/", "room/wall", "room/ceiling")
@@ -83,8 +82,7 @@ def build_room_crossing(
     )
     builder.Connect(level.get_output_port(), motion.GetInputPort("staircase"))
 
-    ik = WholeBodyIk(station.model, robot, params.ik)
-    stand = initial_stand(scenario, robot, ik, station)
+    stand = initial_stand(scenario, station)
 
     def stop(plan: MotionPlan, time: float) -> MotionPlan | None:
         return stop_early(
@@ -110,17 +108,9 @@ def build_room_crossing(
     ):
         builder.Connect(source.GetOutputPort(port), executive.GetInputPort(port))
 
-    walking = add_walking(
-        builder, scenario, station, stand, executive.GetOutputPort("motion_plan")
-    )
-    builder.Connect(
-        walking.landing.GetOutputPort("foot_references"),
-        motion.GetInputPort("foot_references"),
-    )
-    builder.Connect(walking.com_reference, motion.GetInputPort("com_reference"))
-
-    recorder = record_walking(builder, station, walking)
-    for port in ("status", "footstep_plan", "path_plan", "environment"):
+    walking = add_walking(builder, scenario, station, stand, executive, motion)
+    recorder = record_walking(builder, station, walking, executive)
+    for port in ("path_plan", "environment"):
         recorder.add_value(
             f"executive.{port}", executive.GetOutputPort(port), VALUE_PERIOD
         )
@@ -136,19 +126,13 @@ def build_room_crossing(
             SIGNAL_PERIOD,
         )
 
-    if meshcat is not None:
-        MeshcatVisualizer.AddToBuilder(builder, station.scene_graph, meshcat)
-    station.plant.SetDefaultPositions(station.instance, stand.positions)
-    diagram = builder.Build()
-    diagram.set_name("room_crossing")
-    return TaskDiagram(
-        diagram=diagram,
-        plant=station.plant,
-        robot_instance=station.instance,
-        robot=robot,
-        scene=scenario.scene,
-        signals=recorder,
-        status=executive.GetOutputPort("status"),
-        goal=(goal[0], goal[1], goal[2]),
+    return build_diagram(
+        builder,
+        scenario,
+        station,
+        stand,
+        executive,
+        recorder,
+        goal=goal,
         meshcat=meshcat,
     )

@@ -3,14 +3,14 @@
 import dataclasses
 
 import numpy as np
-from pydrake.geometry import Meshcat, MeshcatVisualizer
+from pydrake.geometry import Meshcat
 from pydrake.systems.framework import DiagramBuilder
 from pydrake.systems.primitives import ConstantVectorSource
 
 from diagrams.scenario import ROBOTS, Scenario
-from diagrams.station import Station, add_lidar, add_station
-from diagrams.task_diagram import TaskDiagram
-from diagrams.walking import Stand, add_walking, initial_stand
+from diagrams.station import add_lidar, add_station
+from diagrams.task_diagram import TaskDiagram, build_diagram
+from diagrams.walking import add_walking, initial_stand
 from diagrams.walking_signals import VALUE_PERIOD, record_walking
 from diagrams.wiring import add_system
 from models.collision_hulls import collision_hulls
@@ -96,7 +96,7 @@ def build_stair_climbing(
         footsteps.GetInputPort("foot_poses"),
     )
 
-    stand = initial_stand(scenario, robot, ik, station)
+    stand = initial_stand(scenario, station)
     executive = add_system(
         builder, "executive", Executive(params.executive, stand.plan)
     )
@@ -111,41 +111,19 @@ def build_stair_climbing(
         motion.GetOutputPort("motion_plan"), executive.GetInputPort("motion_plan")
     )
 
-    walking = add_walking(
-        builder, scenario, station, stand, executive.GetOutputPort("motion_plan")
-    )
-    builder.Connect(
-        walking.landing.GetOutputPort("foot_references"),
-        motion.GetInputPort("foot_references"),
-    )
-    builder.Connect(walking.com_reference, motion.GetInputPort("com_reference"))
+    walking = add_walking(builder, scenario, station, stand, executive, motion)
+    recorder = record_walking(builder, station, walking, executive)
+    for port in ("staircase", "segmentation"):
+        recorder.add_value(
+            f"staircase_map.{port}", staircase.GetOutputPort(port), VALUE_PERIOD
+        )
 
-    recorder = record_walking(builder, station, walking)
-    for name, port in (
-        ("executive.status", executive.GetOutputPort("status")),
-        ("executive.footstep_plan", executive.GetOutputPort("footstep_plan")),
-        ("staircase_map.staircase", staircase.GetOutputPort("staircase")),
-        ("staircase_map.segmentation", staircase.GetOutputPort("segmentation")),
-    ):
-        recorder.add_value(name, port, VALUE_PERIOD)
-
-    if meshcat is not None:
-        MeshcatVisualizer.AddToBuilder(builder, station.scene_graph, meshcat)
-    _start_at(station, stand)
-    diagram = builder.Build()
-    diagram.set_name("stair_climbing")
-    return TaskDiagram(
-        diagram=diagram,
-        plant=station.plant,
-        robot_instance=station.instance,
-        robot=robot,
-        scene=scenario.scene,
-        signals=recorder,
-        status=executive.GetOutputPort("status"),
+    return build_diagram(
+        builder,
+        scenario,
+        station,
+        stand,
+        executive,
+        recorder,
         meshcat=meshcat,
     )
-
-
-def _start_at(station: Station, stand: Stand) -> None:
-    """Makes the stand the plant's default configuration."""
-    station.plant.SetDefaultPositions(station.instance, stand.positions)

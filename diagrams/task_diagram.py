@@ -2,15 +2,24 @@
 
 from dataclasses import dataclass
 
-from pydrake.geometry import Meshcat
+from pydrake.geometry import Meshcat, MeshcatVisualizer
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import ModelInstanceIndex
-from pydrake.systems.framework import Context, Diagram, OutputPort, System
+from pydrake.systems.framework import (
+    Context,
+    Diagram,
+    DiagramBuilder,
+    OutputPort,
+    System,
+)
 
+from diagrams.scenario import Scenario
 from diagrams.signals import SignalRecorder
+from diagrams.station import Station
+from diagrams.walking import Stand
 from models.robot import RobotModel
 from models.scene import SceneParams
-from systems.ports import eval_abstract
+from systems.ports import Vector, eval_abstract
 from systems.values import TaskStatus
 
 
@@ -42,3 +51,45 @@ class TaskDiagram:
         system: System = self.status.get_system()  # type: ignore[assignment]
         context = system.GetMyContextFromRoot(root_context)
         return eval_abstract(self.status, context, TaskStatus)
+
+
+def build_diagram(
+    builder: DiagramBuilder,
+    scenario: Scenario,
+    station: Station,
+    stand: Stand,
+    executive: System,
+    signals: SignalRecorder,
+    *,
+    goal: Vector | None = None,
+    meshcat: Meshcat | None = None,
+) -> TaskDiagram:
+    """Builds the closed loop once everything is wired.
+
+    Args:
+        builder: of the diagram, which is named after the scenario's kind of task.
+        scenario: what it was wired from.
+        station: robot and scene.
+        stand: where the robot stands in the default context.
+        executive: its `status` says how the task is going.
+        signals: what is logged.
+        goal: midpoint of the feet and heading at the end in W, (3,), m and rad; None
+            where the task has none.
+        meshcat: where the run is to be shown live, if anywhere.
+    """
+    if meshcat is not None:
+        MeshcatVisualizer.AddToBuilder(builder, station.scene_graph, meshcat)
+    station.plant.SetDefaultPositions(station.instance, stand.positions)
+    diagram = builder.Build()
+    diagram.set_name(scenario.task.kind)
+    return TaskDiagram(
+        diagram=diagram,
+        plant=station.plant,
+        robot_instance=station.instance,
+        robot=station.robot,
+        scene=scenario.scene,
+        signals=signals,
+        status=executive.GetOutputPort("status"),
+        goal=None if goal is None else (goal[0], goal[1], goal[2]),
+        meshcat=meshcat,
+    )

@@ -4,12 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from pydrake.math import RotationMatrix
-from pydrake.systems.framework import DiagramBuilder, OutputPort
+from pydrake.systems.framework import DiagramBuilder, OutputPort, System
 
 from diagrams.scenario import Scenario
 from diagrams.station import Station
 from diagrams.wiring import add_system
-from models.robot import RobotModel
 from systems.balance.com_reference import ComReference
 from systems.balance.landing_adaptor import LandingAdaptor
 from systems.balance.stabilizer import Stabilizer
@@ -60,11 +59,10 @@ class Walking:
     stability: StaticStability
 
 
-def initial_stand(
-    scenario: Scenario, robot: RobotModel, ik: WholeBodyIk, station: Station
-) -> Stand:
+def initial_stand(scenario: Scenario, station: Station) -> Stand:
     """Both feet side by side under the start pose, knees bent."""
     start = scenario.robot
+    model, robot = station.model, station.robot
     turn: Vector = RotationMatrix.MakeZRotation(start.yaw).matrix()
     origin = np.array([start.x, start.y, 0.0])
     half = 0.5 * scenario.parameters.footstep_planner.stance_width
@@ -89,7 +87,8 @@ def initial_stand(
     nowhere: Vector = np.zeros((0, 3))
     preview = scenario.parameters.zmp_preview
     plan = plan_motion(feet, com, (), nowhere, planner, preview, robot)
-    return Stand(feet, com, solve_posture(ik, station.model, target), plan)
+    ik = WholeBodyIk(model, robot, scenario.parameters.ik)
+    return Stand(feet, com, solve_posture(ik, model, target), plan)
 
 
 def add_walking(
@@ -97,7 +96,8 @@ def add_walking(
     scenario: Scenario,
     station: Station,
     stand: Stand,
-    motion_plan: OutputPort,
+    executive: System,
+    planner: System,
 ) -> Walking:
     """Adds the controllers that carry out motion plans.
 
@@ -106,7 +106,9 @@ def add_walking(
         scenario: its parameters.
         station: robot and scene.
         stand: where the robot stands at the start.
-        motion_plan: the plan to carry out, abstract MotionPlan.
+        executive: its `motion_plan` is what is carried out.
+        planner: of motions; it goes on from the `foot_references` and the
+            `com_reference` that are tracked now.
 
     Returns:
         The controllers, wired to the station.
@@ -120,7 +122,9 @@ def add_walking(
         ZmpPreviewController(params.zmp_preview, (stand.com[0], stand.com[1])),
     )
     player = add_system(builder, "motion_player", MotionPlayer(preview.gains.horizon))
-    builder.Connect(motion_plan, player.GetInputPort("motion_plan"))
+    builder.Connect(
+        executive.GetOutputPort("motion_plan"), player.GetInputPort("motion_plan")
+    )
     builder.Connect(
         player.GetOutputPort("zmp_preview"), preview.GetInputPort("zmp_preview")
     )
@@ -147,6 +151,11 @@ def add_walking(
         station.kinematics.GetOutputPort("foot_poses"),
         landing.GetInputPort("foot_poses"),
     )
+    builder.Connect(
+        landing.GetOutputPort("foot_references"),
+        planner.GetInputPort("foot_references"),
+    )
+    builder.Connect(com_reference, planner.GetInputPort("com_reference"))
 
     tracker = add_system(
         builder, "ik_tracker", IkTracker(model, robot, params.ik, stand.positions)

@@ -1,6 +1,6 @@
 """The signals that every walking task logs."""
 
-from pydrake.systems.framework import DiagramBuilder, OutputPort
+from pydrake.systems.framework import DiagramBuilder, OutputPort, System
 
 from diagrams.signals import SignalRecorder
 from diagrams.station import Station
@@ -20,14 +20,15 @@ def _columns(names: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def record_walking(
-    builder: DiagramBuilder, station: Station, walking: Walking
+    builder: DiagramBuilder, station: Station, walking: Walking, executive: System
 ) -> SignalRecorder:
-    """Logs state, torques, wrenches, CoM, DCM, ZMP, feet and contacts.
+    """Logs state, torques, wrenches, CoM, DCM, ZMP, feet, contacts and decisions.
 
     Args:
         builder: of the diagram.
         station: robot and scene.
         walking: the controllers.
+        executive: what decides on their plans.
 
     Returns:
         The recorder, to which a task adds its own signals.
@@ -141,6 +142,10 @@ def record_walking(
         station.contact_monitor.GetOutputPort("touches"),
         VALUE_PERIOD,
     )
+    for port in ("status", "footstep_plan"):
+        recorder.add_value(
+            f"executive.{port}", executive.GetOutputPort(port), VALUE_PERIOD
+        )
     return recorder
 
 

@@ -8,9 +8,6 @@ previewed a second time, and the motion it asks for is added to the CoM.
 from dataclasses import dataclass
 
 import numpy as np
-from pydrake.multibody.plant import MultibodyPlant
-from pydrake.multibody.tree import ModelInstanceIndex
-from pydrake.systems.framework import Context
 
 from systems.balance.zmp_preview import (
     GRAVITY,
@@ -35,44 +32,6 @@ class MomentumTrajectory:
     """P, (n, 3), kg m/s."""
     angular: Vector
     """L about the world's origin, (n, 3), kg m^2/s."""
-
-
-def momentum_trajectory(
-    plant: MultibodyPlant,
-    plant_context: Context,
-    robot: ModelInstanceIndex,
-    q: Vector,
-    v: Vector,
-) -> MomentumTrajectory:
-    """CoM and momentum at every tick of a motion.
-
-    Args:
-        plant: the plant.
-        plant_context: scratch context of it; its state is changed.
-        robot: the model instance that counts.
-        q: positions of that instance, (n, nq).
-        v: velocities of that instance, (n, nv).
-
-    Returns:
-        The trajectory, n ticks.
-    """
-    origin: Vector = np.zeros(3)
-    com, linear, angular = [], [], []
-    for position, velocity in zip(q, v, strict=True):
-        plant.SetPositions(plant_context, robot, position)
-        plant.SetVelocities(plant_context, robot, velocity)
-        com.append(plant.CalcCenterOfMassPositionInWorld(plant_context, [robot]))
-        momentum = plant.CalcSpatialMomentumInWorldAboutPoint(
-            plant_context, [robot], origin
-        )
-        linear.append(momentum.translational())
-        angular.append(momentum.rotational())
-    return MomentumTrajectory(
-        mass=float(plant.CalcTotalMass(plant_context, [robot])),
-        com=np.array(com),
-        linear=np.array(linear),
-        angular=np.array(angular),
-    )
 
 
 def multibody_zmp(

@@ -3,16 +3,19 @@
 import dataclasses
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal, TypeAlias
 
 import numpy as np
 from pydrake.common.value import AbstractValue
-from pydrake.systems.framework import BasicVector, Context, LeafSystem, State
+from pydrake.systems.framework import BasicVector, Context, LeafSystem
 
 from models.validation import require_at_least, require_positive
+from systems.planning.decision_state import declare_decisions
 from systems.ports import eval_abstract, eval_vector, set_vector
 from systems.timing import timed
 from systems.values import FootstepPlan, MotionPlan, TaskStatus, Value
+
+Activity: TypeAlias = Literal["settle", "scan", "move", "stand"]
 
 
 @dataclass(kw_only=True)
@@ -42,7 +45,7 @@ class Decision(Value):
     """What is being carried out."""
     footstep_plan: FootstepPlan = dataclasses.field(default_factory=FootstepPlan)
     """The footsteps of that."""
-    activity: Literal["settle", "scan", "move", "stand"] = "settle"
+    activity: Activity = "settle"
     since: float = 0.0
     """When this activity began, s."""
     sweeps: int = 0
@@ -81,14 +84,10 @@ def decide(
         footsteps = plan_footsteps()
         known = dataclasses.replace(before, sweeps=sweeps, footstep_plan=footsteps)
         if footsteps.status != "planned":
-            stopped = _turn_to(known, "stand", time)
-            status = TaskStatus(footsteps.status, "stand", footsteps.reason)
-            return dataclasses.replace(stopped, status=status)
+            return _turn_to(known, "stand", time, footsteps.status, footsteps.reason)
         plan = plan_motion().starting_at(time)
         if plan.reason:
-            stopped = _turn_to(known, "stand", time)
-            status = TaskStatus("infeasible", "stand", plan.reason)
-            return dataclasses.replace(stopped, status=status)
+            return _turn_to(known, "stand", time, "infeasible", plan.reason)
         return _turn_to(dataclasses.replace(known, motion_plan=plan), "move", time)
     if before.activity == "move":
         plan = before.motion_plan
@@ -100,10 +99,12 @@ def decide(
 
 def _turn_to(
     before: Decision,
-    activity: Literal["settle", "scan", "move", "stand"],
+    activity: Activity,
     time: float,
+    state: Literal["running", "finished", "infeasible"] = "running",
+    reason: str = "",
 ) -> Decision:
-    status = TaskStatus("running", activity)
+    status = TaskStatus(state, activity, reason)
     return dataclasses.replace(before, activity=activity, since=time, status=status)
 
 
@@ -147,7 +148,6 @@ class Executive(LeafSystem):
         super().__init__()
         params.validate()
         self._params = params
-        self._state = self.DeclareAbstractState(AbstractValue.Make(Decision(stand)))
         self._sweep = self.DeclareVectorInputPort("sweep", 1)
         self._footsteps = self.DeclareAbstractInputPort(
             "footstep_plan", AbstractValue.Make(FootstepPlan())
@@ -155,48 +155,26 @@ class Executive(LeafSystem):
         self._motion = self.DeclareAbstractInputPort(
             "motion_plan", AbstractValue.Make(stand)
         )
-        ticket = {self.abstract_state_ticket(self._state)}
-        parts: tuple[tuple[str, object, Callable[[Decision], object]], ...] = (
-            ("motion_plan", stand, lambda decision: decision.motion_plan),
-            ("footstep_plan", FootstepPlan(), lambda decision: decision.footstep_plan),
-            ("status", TaskStatus(), lambda decision: decision.status),
+        self._decision = declare_decisions(
+            self,
+            Decision(stand),
+            ("motion_plan", "footstep_plan", "status"),
+            params.period,
+            self._decide,
         )
-        for name, model, part in parts:
-            calc: Callable[..., None] = timed(self, self._calc(part))
-            self.DeclareAbstractOutputPort(
-                name,
-                lambda model=model: AbstractValue.Make(model),
-                calc,
-                prerequisites_of_calc=ticket,
-            )
         self.DeclareVectorOutputPort(
-            "scan", 1, timed(self, self._calc_scan), prerequisites_of_calc=ticket
+            "scan",
+            1,
+            timed(self, self._calc_scan),
+            prerequisites_of_calc={self.xa_ticket()},
         )
-        self.DeclarePeriodicUnrestrictedUpdateEvent(
-            params.period, 0.0, timed(self, self._update)
-        )
-
-    def _decision(self, context: Context) -> Decision:
-        state: Any = context.get_abstract_state(int(self._state))
-        decision = state.get_value()
-        assert isinstance(decision, Decision)
-        return decision
-
-    def _calc(
-        self, part: Callable[[Decision], object]
-    ) -> Callable[[Context, AbstractValue], None]:
-        def calc(context: Context, output: AbstractValue) -> None:
-            output.set_value(part(self._decision(context)))
-
-        return calc
 
     def _calc_scan(self, context: Context, output: BasicVector) -> None:
         scan = self._decision(context).activity == "scan"
         set_vector(output, np.array([float(scan)]))
 
-    def _update(self, context: Context, state: State) -> None:
-        before = self._decision(context)
-        after = decide(
+    def _decide(self, context: Context, before: Decision) -> Decision:
+        return decide(
             before,
             context.get_time(),
             round(float(eval_vector(self._sweep, context)[0])),
@@ -204,5 +182,3 @@ class Executive(LeafSystem):
             lambda: eval_abstract(self._motion, context, MotionPlan),
             self._params,
         )
-        if after is not before:
-            state.get_mutable_abstract_state(int(self._state)).set_value(after)

@@ -156,13 +156,13 @@ def leg_model(
 
 def rotations(rpy: Vector) -> Vector:
     """Rotation matrices of roll, pitch, yaw, (n, 3), as (n, 3, 3)."""
-    (cr, cp, cy), (sr, sp, sy) = np.cos(rpy).T, np.sin(rpy).T
-    rows = [
-        [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
-        [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
-        [-sp, cp * sr, cp * cr],
-    ]
-    return np.moveaxis(np.array(rows), -1, 0)
+    (cr, cp, cy), (sr, sp, sy) = np.cos(rpy.T), np.sin(rpy.T)
+    R = np.empty((len(rpy), 3, 3))
+    R[:, 0, 0], R[:, 1, 0], R[:, 2, 0] = cy * cp, sy * cp, -sp
+    R[:, 0, 1], R[:, 0, 2] = cy * sp * sr - sy * cr, cy * sp * cr + sy * sr
+    R[:, 1, 1], R[:, 1, 2] = sy * sp * sr + cy * cr, sy * sp * cr - cy * sr
+    R[:, 2, 1], R[:, 2, 2] = cp * sr, cp * cr
+    return R
 
 
 def leg_angles(
@@ -181,33 +181,63 @@ def leg_angles(
         The angles; where the ankle is out of reach those with the knee at its limit
         that point the leg at it.
     """
+    reach = model.hip_to_ankle(float(model.lower[FEET.index(foot), 3]))
+    return _closed_form(model, waist + R_WP @ model.hips[foot], R_WP, sole, reach)
+
+
+def both_leg_angles(
+    model: LegModel, waist: Vector, R_WP: Vector, soles: Vector
+) -> LegAngles:
+    """`leg_angles` of both legs in one pass.
+
+    Args:
+        model: the legs.
+        waist: origin of the pelvis in W, (n, 3), m.
+        R_WP: its orientation, (n, 3, 3).
+        soles: sole frames, left first, (n, 2, 6).
+
+    Returns:
+        The angles, (n, 2, 6), and how far each ankle is out of reach, (n, 2).
+    """
+    n = len(waist)
+    hips = np.array([model.hips[foot] for foot in FEET])
+    p_WH = waist[:, None] + hips @ np.swapaxes(R_WP, 1, 2)
+    reach = [model.hip_to_ankle(float(knee)) for knee in model.lower[:, 3]]
+    found = _closed_form(
+        model,
+        p_WH.reshape(-1, 3),
+        np.repeat(R_WP, 2, axis=0),
+        soles.reshape(-1, 6),
+        np.tile(reach, n),
+    )
+    return LegAngles(found.angles.reshape(n, 2, 6), found.short.reshape(n, 2))
+
+
+def _closed_form(
+    model: LegModel, p_WH: Vector, R_WP: Vector, sole: Vector, reach: Vector | float
+) -> LegAngles:
+    """The legs between hips and soles; see `leg_angles`."""
     R_WA = rotations(sole[:, 3:])
     p_WA = sole[:, :3] + model.sole.ankle_height * R_WA[:, :, 2]
-    p_WH = waist + R_WP @ model.hips[foot]
     p_A = np.einsum("nji,nj->ni", R_WA, p_WH - p_WA)
-    distance = np.linalg.norm(p_A, axis=1)
-    i = FEET.index(foot)
-    reach = model.hip_to_ankle(float(model.lower[i, 3]))
+    distance = np.sqrt((p_A**2).sum(axis=1))
     knee = knee_angle(model, np.minimum(distance, reach))
     # The hip seen from the ankle in the frame of the shank.
-    v = -(model.shank + _turned(np.broadcast_to(model.thigh, (len(knee), 2)), -knee))
-    p_A = p_A * (np.linalg.norm(v, axis=1) / distance)[:, None]
+    v = -(model.shank + _turned(model.thigh, -knee))
+    p_A *= (np.sqrt((v**2).sum(axis=1)) / distance)[:, None]
     roll = np.arcsin(np.clip(p_A[:, 1] / v[:, 1], -1.0, 1.0))
     depth = v[:, 1] * np.cos(roll)
     pitch = np.arctan2(p_A[:, 2], p_A[:, 0]) - np.arctan2(depth, v[:, 0])
     pitch = (pitch + np.pi) % (2.0 * np.pi) - np.pi
-    R_KA = _about_x(roll) @ _about_y(pitch)
-    R_PT = (
-        np.swapaxes(R_WP, 1, 2)
-        @ R_WA
-        @ np.swapaxes(R_KA, 1, 2)
-        @ np.swapaxes(_about_y(knee), 1, 2)
-    )
-    # R_PT = Ry(hip pitch) Rx(hip roll) Rz(hip yaw).
-    hip_roll = np.arcsin(np.clip(-R_PT[:, 1, 2], -1.0, 1.0))
-    hip_pitch = np.arctan2(R_PT[:, 0, 2], R_PT[:, 2, 2])
-    hip_yaw = np.arctan2(R_PT[:, 1, 0], R_PT[:, 1, 1])
-    angles = np.column_stack([hip_pitch, hip_roll, hip_yaw, knee, roll, pitch])
+    # R_KA = Rx(roll) Ry(pitch), and Ry(knee) is the shank's in the thigh.
+    x, y, z = np.moveaxis(np.swapaxes(R_WP, 1, 2) @ R_WA, 2, 0)
+    x, y, z = _shank_axes(x, y, z, roll, pitch)
+    x, z = _pitched_back(x, z, knee)
+    # R_PT = Ry(hip pitch) Rx(hip roll) Rz(hip yaw); its columns are x, y, z.
+    hip_roll = np.arcsin(np.clip(-z[:, 1], -1.0, 1.0))
+    hip_pitch = np.arctan2(z[:, 0], z[:, 2])
+    hip_yaw = np.arctan2(x[:, 1], y[:, 1])
+    angles = np.stack([hip_pitch, hip_roll, hip_yaw, knee, roll, pitch], axis=1)
     return LegAngles(angles, np.maximum(distance - reach, 0.0))
 
 
@@ -238,18 +268,13 @@ def outline_points(
     """
     R_WA = rotations(sole[:, 3:])
     p_WA = sole[:, :3] + model.sole.ankle_height * R_WA[:, :, 2]
-    R_KA = _about_x(angles[:, 4]) @ _about_y(angles[:, 5])
-    R_WK = R_WA @ np.swapaxes(R_KA, 1, 2)
-
-    def placed(points: Vector, R: Vector, origin: Vector) -> Vector:
-        p = np.zeros((len(points), 3))
-        p[:, [0, 2]] = points
-        return np.asarray(np.einsum("nij,kj->nki", R, p) + origin[:, None])
-
-    p_KA = np.array([model.shank[0], 0.0, model.shank[1]])
-    p_WK = p_WA - R_WK @ p_KA
-    feet = placed(model.outline.foot, R_WA, p_WA)
-    shank = placed(model.outline.shank, R_WK, p_WK)
+    x, y, z = np.moveaxis(R_WA, 2, 0)
+    sagittal_A = np.stack([x, z], axis=1)
+    x, _, z = _shank_axes(x, y, z, angles[:, 4], angles[:, 5])
+    sagittal_K = np.stack([x, z], axis=1)
+    p_WK = p_WA - model.shank @ sagittal_K
+    feet = model.outline.foot @ sagittal_A + p_WA[:, None]
+    shank = model.outline.shank @ sagittal_K + p_WK[:, None]
     points = np.concatenate([feet[:, :3], shank, feet[:, 3:]], axis=1)
     return points, p_WK
 
@@ -260,11 +285,16 @@ def _turned(v: Vector, pitch: Vector | float) -> Vector:
     return np.stack([c * v[..., 0] + s * v[..., 1], c * v[..., 1] - s * v[..., 0]], -1)
 
 
-def _about_x(angle: Vector) -> Vector:
-    zero = np.zeros_like(angle)
-    return rotations(np.column_stack([angle, zero, zero]))
+def _pitched_back(x: Vector, z: Vector, pitch: Vector) -> tuple[Vector, Vector]:
+    """Axes x and z, (n, 3) each, of a frame that is turned by -pitch about its y."""
+    c, s = np.cos(pitch)[:, None], np.sin(pitch)[:, None]
+    return c * x + s * z, c * z - s * x
 
 
-def _about_y(angle: Vector) -> Vector:
-    zero = np.zeros_like(angle)
-    return rotations(np.column_stack([zero, angle, zero]))
+def _shank_axes(
+    x: Vector, y: Vector, z: Vector, roll: Vector, pitch: Vector
+) -> tuple[Vector, Vector, Vector]:
+    """Axes of the shank from those of the foot, (n, 3) each, and the ankle's angles."""
+    x, z = _pitched_back(x, z, pitch)
+    c, s = np.cos(roll)[:, None], np.sin(roll)[:, None]
+    return x, c * y - s * z, c * z + s * y

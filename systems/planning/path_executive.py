@@ -3,19 +3,18 @@
 import dataclasses
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
-import numpy as np
 import shapely  # type: ignore[import-untyped]
 from pydrake.common.value import AbstractValue
-from pydrake.systems.framework import Context, LeafSystem, State
+from pydrake.systems.framework import Context, LeafSystem
 
 from models.robot import Sole
 from models.validation import require_at_least, require_positive
+from systems.planning.decision_state import declare_decisions
 from systems.planning.foothold import sole_corners
 from systems.ports import eval_abstract, eval_vector
 from systems.room_values import Environment, PathPlan
-from systems.timing import timed
 from systems.values import Footstep, FootstepPlan, MotionPlan, TaskStatus, Value
 
 Activity: TypeAlias = Literal["look", "move", "stop", "stand"]
@@ -168,15 +167,20 @@ def _plan(
     if status == "planned" and before.plans >= params.most_plans:
         status, reason = "infeasible", f"not there after {before.plans} plans"
     if status != "planned":
-        stopped = _turn_to(known, "stand", time)
-        return dataclasses.replace(stopped, status=TaskStatus(status, "stand", reason))
+        return _turn_to(known, "stand", time, status, reason)
     plan = sources.motion().starting_at(time)
     moving = dataclasses.replace(known, motion_plan=plan, plans=before.plans + 1)
     return _turn_to(moving, "move", time)
 
 
-def _turn_to(before: PathDecision, activity: Activity, time: float) -> PathDecision:
-    status = TaskStatus("running", activity)
+def _turn_to(
+    before: PathDecision,
+    activity: Activity,
+    time: float,
+    state: Literal["running", "finished", "infeasible"] = "running",
+    reason: str = "",
+) -> PathDecision:
+    status = TaskStatus(state, activity, reason)
     return dataclasses.replace(before, activity=activity, since=time, status=status)
 
 
@@ -237,7 +241,6 @@ class PathExecutive(LeafSystem):
         super().__init__()
         params.validate()
         self._params, self._sole, self._stop = params, sole, stop
-        self._state = self.DeclareAbstractState(AbstractValue.Make(PathDecision(stand)))
         self._frame = self.DeclareVectorInputPort("frame", 1)
         self._environment = self.DeclareAbstractInputPort(
             "environment", AbstractValue.Make(Environment())
@@ -251,42 +254,15 @@ class PathExecutive(LeafSystem):
         self._motion = self.DeclareAbstractInputPort(
             "motion_plan", AbstractValue.Make(stand)
         )
-        ticket = {self.abstract_state_ticket(self._state)}
-        parts: tuple[tuple[str, object, Callable[[PathDecision], object]], ...] = (
-            ("motion_plan", stand, lambda decision: decision.motion_plan),
-            ("footstep_plan", FootstepPlan(), lambda decision: decision.footstep_plan),
-            ("path_plan", PathPlan(), lambda decision: decision.path_plan),
-            ("environment", Environment(), lambda decision: decision.environment),
-            ("status", TaskStatus(), lambda decision: decision.status),
-        )
-        for name, model, part in parts:
-            calc: Callable[..., None] = timed(self, self._calc(part))
-            self.DeclareAbstractOutputPort(
-                name,
-                lambda model=model: AbstractValue.Make(model),
-                calc,
-                prerequisites_of_calc=ticket,
-            )
-        self.DeclarePeriodicUnrestrictedUpdateEvent(
-            params.period, 0.0, timed(self, self._update)
+        self._decision = declare_decisions(
+            self,
+            PathDecision(stand),
+            ("motion_plan", "footstep_plan", "path_plan", "environment", "status"),
+            params.period,
+            self._decide,
         )
 
-    def _decision(self, context: Context) -> PathDecision:
-        state: Any = context.get_abstract_state(int(self._state))
-        decision = state.get_value()
-        assert isinstance(decision, PathDecision)
-        return decision
-
-    def _calc(
-        self, part: Callable[[PathDecision], object]
-    ) -> Callable[[Context, AbstractValue], None]:
-        def calc(context: Context, output: AbstractValue) -> None:
-            output.set_value(part(self._decision(context)))
-
-        return calc
-
-    def _update(self, context: Context, state: State) -> None:
-        before = self._decision(context)
+    def _decide(self, context: Context, before: PathDecision) -> PathDecision:
         sources = Sources(
             lambda: eval_abstract(self._environment, context, Environment),
             lambda: eval_abstract(self._path, context, PathPlan),
@@ -294,9 +270,7 @@ class PathExecutive(LeafSystem):
             lambda: eval_abstract(self._motion, context, MotionPlan),
             self._stop,
         )
-        frames = round(float(np.asarray(eval_vector(self._frame, context))[0]))
-        after = decide(
+        frames = round(float(eval_vector(self._frame, context)[0]))
+        return decide(
             before, context.get_time(), frames, sources, self._sole, self._params
         )
-        if after is not before:
-            state.get_mutable_abstract_state(int(self._state)).set_value(after)

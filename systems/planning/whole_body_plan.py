@@ -1,6 +1,7 @@
 """The motion of the whole body that follows waist and feet, and its ZMP."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -8,8 +9,9 @@ from pydrake.multibody.plant import MultibodyPlant
 from pydrake.systems.framework import Context
 
 from models.robot import RobotModel
-from systems.balance.dynamic_filter import momentum_trajectory, multibody_zmp
-from systems.planning.leg_model import LegModel, leg_angles, rotations
+from systems.balance.dynamic_filter import multibody_zmp
+from systems.planning.leg_model import LegModel, both_leg_angles, rotations
+from systems.planning.link_tree import LinkTree, com_in_base, link_tree, momentum
 from systems.ports import Vector
 from systems.values import FEET
 
@@ -22,6 +24,14 @@ class WholeBody:
     """The robot alone, finalised, floating base first."""
     robot: RobotModel
     leg: LegModel
+
+    @cached_property
+    def tree(self) -> LinkTree:
+        """The robot with joints of left leg, right leg and swinging arms, in order."""
+        robot = self.robot
+        legs = [name for foot in FEET for name in robot.leg_joints[foot]]
+        moving = [*legs, *robot.swing_joints]
+        return link_tree(self.plant, robot.base_body, moving, robot.posture)
 
 
 class BodyMotion(NamedTuple):
@@ -67,31 +77,20 @@ def body_motion(
         guess: offset of the waist from the CoM, (n, 2), m; None for none.
         rounds: how often the offset is corrected.
     """
-    plant, robot = body.plant, body.robot
-    n = len(com)
-    q = np.zeros((n, plant.num_positions()))
-    for name, angle in robot.posture.items():
-        q[:, plant.GetJointByName(name).position_start()] = angle
-    for name in robot.swing_joints:
-        q[:, plant.GetJointByName(name).position_start()] += arms
-    q[:, :4] = quaternions(waist_rpy)
+    tree, n = body.tree, len(com)
+    angles = np.tile(tree.posture[tree.columns], (n, 1))
+    angles[:, 2 * 6 :] += np.broadcast_to(arms, n)[:, None]
     R_WP = rotations(waist_rpy)
     offset = np.zeros((n, 2)) if guess is None else guess
-    legs, short = np.zeros((n, 2, 6)), np.zeros((n, 2))
-    p_WCom = np.zeros((n, 3))
-    waist = np.zeros((n, 3))
     for _ in range(rounds + 1):
         waist = np.column_stack([com + offset, waist_height])
-        for i, foot in enumerate(FEET):
-            found = leg_angles(body.leg, foot, waist, R_WP, feet[:, i])
-            legs[:, i], short[:, i] = found
-            for k, name in enumerate(robot.leg_joints[foot]):
-                q[:, plant.GetJointByName(name).position_start()] = found.angles[:, k]
-        q[:, 4:7] = waist
-        for row in range(n):
-            plant.SetPositions(context, q[row])
-            p_WCom[row] = plant.CalcCenterOfMassPositionInWorld(context)
+        legs, short = both_leg_angles(body.leg, waist, R_WP, feet)
+        angles[:, : 2 * 6] = legs.reshape(n, -1)
+        p_WCom = waist + np.einsum("nij,nj->ni", R_WP, com_in_base(tree, angles))
         offset = waist[:, :2] - p_WCom[:, :2]
+    q = np.tile(tree.posture, (n, 1))
+    q[:, :4], q[:, 4:7] = quaternions(waist_rpy), waist
+    q[:, tree.columns] = angles
     return BodyMotion(q, waist, p_WCom, legs, short)
 
 
@@ -127,14 +126,8 @@ def waist_over(
 
 def waist_above_com(body: WholeBody) -> float:
     """Height of the pelvis above the CoM in the robot's posture, m; mostly negative."""
-    plant = body.plant
-    context = plant.CreateDefaultContext()
-    q: Vector = np.zeros(plant.num_positions())
-    q[0] = 1.0
-    for name, angle in body.robot.posture.items():
-        q[plant.GetJointByName(name).position_start()] = angle
-    plant.SetPositions(context, q)
-    return -float(plant.CalcCenterOfMassPositionInWorld(context)[2])
+    tree = body.tree
+    return -float(com_in_base(tree, tree.posture[None, tree.columns])[0, 2])
 
 
 def body_zmp(
@@ -149,12 +142,9 @@ def body_zmp(
         zmp_height: height of the ground under the ZMP, (n,), m.
         period: between rows, s.
     """
-    plant = body.plant
     rates: Vector = np.asarray(np.gradient(q, period, axis=0))
     v = np.column_stack([spins(q[:, :4], rates[:, :4]), rates[:, 4:]])
-    instance = plant.GetBodyByName(body.robot.base_body).model_instance()
-    moved = momentum_trajectory(plant, context, instance, q, v)
-    return multibody_zmp(moved, zmp_height, period)
+    return multibody_zmp(momentum(body.tree, q, v), zmp_height, period)
 
 
 def spins(quaternion: Vector, rate: Vector) -> Vector:

@@ -12,7 +12,6 @@ from diagrams.tasks import build_task
 from diagrams.walking import Stand, initial_stand
 from models.jvrc1 import JVRC1
 from systems.ports import Vector, eval_vector
-from systems.tracking.whole_body_ik import WholeBodyIk
 
 OVERRIDES = ("robot.x=-0.5", "robot.y=0.4", "robot.yaw=0.5", "scene.staircase.x=1.0")
 
@@ -38,8 +37,7 @@ def make_stand(*overrides: str) -> tuple[Stand, Context, object]:
     """The stand, the model's context at it and the model."""
     scenario = load_scenario("stairs-exp1", overrides)
     station = add_station(DiagramBuilder(), scenario, JVRC1, 0.005)
-    ik = WholeBodyIk(station.model, JVRC1, scenario.parameters.ik)
-    stand = initial_stand(scenario, JVRC1, ik, station)
+    stand = initial_stand(scenario, station)
     context = station.model.CreateDefaultContext()
     station.model.SetPositions(context, stand.positions)
     return stand, context, station.model
