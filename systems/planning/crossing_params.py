@@ -41,8 +41,9 @@ class HighCrossingParams:
     """How far the knees keep off their straightest, rad."""
     inward: float = 0.05
     """How far the foot over the obstacle is drawn towards the other one, m."""
-    margin: float = 0.03
-    """s_w and s_h, m: the paper's own; what the eyes and the feet err comes off it."""
+    margins: list[float] = field(default_factory=lambda: [0.038, 0.03])
+    """s_w and s_h, m, tried in this order: the paper's own last, when the knees ask for
+    the shorter step; what the eyes and the feet err comes off them."""
     least_gap: float = 0.025
     """Least distance of the legs to the obstacle as it was seen, m."""
     lead_pitch: float = 0.2
@@ -65,11 +66,12 @@ class HighCrossingParams:
             "waist_yaw",
             "inward",
             "knee_margin",
-            "margin",
             "over_share",
         ):
             require_at_least(name, getattr(self, name), 0.0)
         require_finite("arm_swing", self.arm_swing)
+        for number, margin in enumerate(self.margins):
+            require_at_least(f"margins[{number}]", margin, 0.0, "m")
 
 
 @dataclass(kw_only=True)
@@ -177,27 +179,31 @@ class CrossingParams:
         require_at_least("max_repairs", self.max_repairs, 0)
 
 
-def reaching_high(crossing: CrossingParams) -> CrossingParams:
-    """The same crossing in the way of `crossing.high`."""
+def ways_of_crossing(crossing: CrossingParams) -> tuple[CrossingParams, ...]:
+    """The crossing as it is, then in the ways of `crossing.high`."""
     high = crossing.high
-    return replace(
-        crossing,
-        feasibility=replace(crossing.feasibility, s_w=high.margin, s_h=high.margin),
-        feet=replace(
-            crossing.feet,
-            lead_pitch=high.lead_pitch,
-            trail_pitch=high.trail_pitch,
-            over_share=high.over_share,
-        ),
-        single_support=high.single_support,
-        double_support=high.double_support,
-        lean=high.lean,
-        waist_yaw=high.waist_yaw,
-        arm_swing=high.arm_swing,
-        inward=high.inward,
-        knee_margin=high.knee_margin,
-        least_gap=high.least_gap,
-    )
+    ways = [
+        replace(
+            crossing,
+            feasibility=replace(crossing.feasibility, s_w=margin, s_h=margin),
+            feet=replace(
+                crossing.feet,
+                lead_pitch=high.lead_pitch,
+                trail_pitch=high.trail_pitch,
+                over_share=high.over_share,
+            ),
+            single_support=high.single_support,
+            double_support=high.double_support,
+            lean=high.lean,
+            waist_yaw=high.waist_yaw,
+            arm_swing=high.arm_swing,
+            inward=high.inward,
+            knee_margin=high.knee_margin,
+            least_gap=high.least_gap,
+        )
+        for margin in high.margins
+    ]
+    return (crossing, *ways)
 
 
 def slowed(

@@ -18,7 +18,7 @@ from systems.planning.crossing_footsteps import (
     plan_crossing_steps,
 )
 from systems.planning.crossing_motion import plan_crossing
-from systems.planning.crossing_params import CrossingParams, Mode, reaching_high
+from systems.planning.crossing_params import CrossingParams, Mode, ways_of_crossing
 from systems.planning.crossing_report import refusal_of
 from systems.planning.feasibility_unit import feasibility_unit
 from systems.planning.foothold import Refusal
@@ -99,8 +99,7 @@ class CrossingPlanner(LeafSystem):
         self._footsteps, self._walking = footsteps, walking
         self._preview, self._body = preview, body
         # The first way that will do is taken.
-        dynamic = (crossing, reaching_high(crossing))
-        self._ways = dynamic if mode == "dynamic" else (crossing,)
+        self._ways = ways_of_crossing(crossing) if mode == "dynamic" else (crossing,)
         self._standing = standing
         self._mode: Mode = mode
         self._waist = walking.com_height + waist_above_com(body)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from systems.planning.crossing_params import CrossingParams, reaching_high
+from systems.planning.crossing_params import CrossingParams, ways_of_crossing
 from systems.planning.crossing_report import CrossingMotion
 from systems.planning.feasibility_unit import FeasibilityParams
 from systems.planning.feet_adaptor import ankle_displacement
@@ -178,7 +178,7 @@ def test_the_plan_stays_within_torque_and_joint_limits(motion: CrossingMotion) -
 
 def test_a_foot_that_is_not_drawn_in_rolls_the_hip_beyond_its_limit() -> None:
     """Over 25 cm, in the way for high obstacles."""
-    params = reaching_high(CrossingParams())
+    params = ways_of_crossing(CrossingParams())[-1]
     drawn, hanging = (
         planned(0.05, 0.25, replace(params, inward=inward))[0].report
         for inward in (params.inward, 0.0)
