@@ -4,7 +4,9 @@ Obstacle paper (Stasse et al. 2009), Sec. II and III-A. The plane across the obs
 the rear ankle at x = 0, the front ankle at X_ads, the waist at (X_hds, Z_hds).
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from math import ceil
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -12,15 +14,18 @@ import numpy as np
 from models.validation import require_at_least, require_positive
 from systems.obstacle_values import Feasibility, KeyConfiguration
 from systems.planning.leg_clearance import Section, outline_gap
-from systems.planning.leg_model import LegModel, leg_angles, outline_points, rotations
+from systems.planning.leg_model import LegModel, both_leg_angles, outline_points
 from systems.ports import Vector
 from systems.values import FEET
 
 Mask: TypeAlias = np.ndarray[Any, np.dtype[np.bool_]]
 
 JOINTS = ("hip pitch", "hip roll", "hip yaw", "knee", "ankle roll", "ankle pitch")
-SLACKS = (0.5, 0.25, 0.75, 0.0, 1.0)
-"""Where the obstacle lies in the room between the feet, tried in this order."""
+SLACKS = (0.5, 0.25, 0.75)
+"""Where the obstacle lies in the room between the feet, tried in this order; at 0 and
+1 a foot would touch its margin."""
+BATCH = 4
+"""Step lengths in one pass: as many as stay in a processor's cache."""
 
 
 @dataclass(kw_only=True)
@@ -82,6 +87,23 @@ class Checked(NamedTuple):
     knees: Vector
     """Rear ankle to the knee of the rear and of the front leg, (n, 2), m."""
 
+    def within(self, margin: float) -> Mask:
+        """Which are in reach and keep a margin, rad, from the joint limits, (n,)."""
+        fine: Mask = (self.reached > 0.5) & (self.limits <= -margin).all(axis=1)
+        return fine
+
+
+class _Legs(NamedTuple):
+    """Both legs of n configurations in the plane, the rear one first."""
+
+    soles: Vector
+    """(n, 2, 6)."""
+    angles: Vector
+    """(n, 2, 6), rad."""
+    reached: Vector
+    limits: Vector
+    """These two as in `Checked`."""
+
 
 def check_double_support(
     section: Section,
@@ -101,29 +123,47 @@ def check_double_support(
         front: rear ankle to the front face, (n,), m.
         leg: the legs.
     """
+    legs = _legs(X_ads, X_hds, Z_hds, leg)
+    shape = (legs.soles, legs.angles)
+    gap, knees = _clearance(section, shape, X_hds, Z_hds, front, leg)
+    return Checked(legs.reached, legs.limits, gap, knees)
+
+
+def _legs(X_ads: Vector, X_hds: Vector, Z_hds: Vector, leg: LegModel) -> _Legs:
+    """Eq. 1: the legs, and whether they can."""
     n = len(X_ads)
-    upright = rotations(np.zeros((n, 3)))
-    reached, gap = np.ones(n), np.full(n, np.inf)
-    limits, knees = np.full((n, 6), -np.inf), np.zeros((n, 2))
-    for i, foot in enumerate(FEET):
-        sole = np.zeros((n, 6))
-        sole[:, 0] = 0.0 if i == 0 else X_ads
-        waist = np.column_stack([X_hds, -leg.hips[foot][1] * np.ones(n), Z_hds])
-        waist[:, 0] -= leg.hips[foot][0]
-        waist[:, 2] -= leg.hips[foot][2]
-        found = leg_angles(leg, foot, waist, upright, sole)
-        reached = np.where(found.short > 0.0, 0.0, reached)
-        beyond = np.maximum(found.angles - leg.upper[i], leg.lower[i] - found.angles)
-        limits = np.maximum(limits, beyond)
-        points, knee = outline_points(leg, foot, found.angles, sole)
-        knees[:, i] = knee[:, 0]
-        hip = np.column_stack([X_hds, np.zeros(n), Z_hds])
-        thigh = np.stack([knee, hip], axis=1)
-        for line in (points, thigh):
-            planar = line[:, :, [0, 2]].copy()
-            planar[:, :, 0] -= front[:, None]
-            gap = np.minimum(gap, outline_gap(planar, section))
-    return Checked(reached, limits, gap, knees)
+    hips = np.array([leg.hips[foot] for foot in FEET])
+    soles = np.zeros((n, 2, 6))
+    soles[:, 1, 0] = X_ads
+    soles[:, :, 1] = hips[:, 1]
+    waist = np.column_stack([X_hds - hips[0, 0], np.zeros(n), Z_hds - hips[0, 2]])
+    upright = np.broadcast_to(np.eye(3), (n, 3, 3))
+    angles, short = both_leg_angles(leg, waist, upright, soles)
+    beyond = np.maximum(angles - leg.upper, leg.lower - angles).max(axis=1)
+    reached = np.where((short > 0.0).any(axis=1), 0.0, 1.0)
+    return _Legs(soles, angles, reached, beyond)
+
+
+def _clearance(
+    section: Section,
+    legs: tuple[Vector, Vector],
+    X_hds: Vector,
+    Z_hds: Vector,
+    front: Vector,
+    leg: LegModel,
+) -> tuple[Vector, Vector]:
+    """Eq. 5: gaps, (n,), m, and knees, (n, 2), m, of soles and angles of the legs."""
+    soles, angles = (part.reshape(-1, 6) for part in legs)
+    points, knee = outline_points(leg, FEET[0], angles, soles)
+    hip = np.repeat(np.column_stack([X_hds, Z_hds]), 2, axis=0)
+    origin = np.repeat(np.column_stack([front, np.zeros(len(front))]), 2, axis=0)
+    thigh = np.stack([knee[:, ::2], hip], axis=1)
+    gaps = [
+        outline_gap(line - origin[:, None], section)
+        for line in (points[:, :, ::2], thigh)
+    ]
+    gap = np.minimum(*gaps).reshape(-1, 2).min(axis=1)
+    return gap, knee[:, 0].reshape(-1, 2)
 
 
 def check_about(
@@ -134,21 +174,48 @@ def check_about(
     front: Vector,
     leg: LegModel,
     travel: float,
+    margin: float,
 ) -> Checked:
     """The worst of `check_double_support` while the waist is within X_hds +- travel.
 
-    Of the knees those at the middle.
+    Of the knees those at the middle. Gap and knees are looked at only where the legs
+    are in reach and keep a margin, rad, from their limits; -inf and nan elsewhere.
     """
-    parts = [
-        check_double_support(section, X_ads, X_hds + way, Z_hds, front, leg)
-        for way in (-travel, 0.0, travel)
-    ]
-    return Checked(
-        np.min([part.reached for part in parts], axis=0),
-        np.max([part.limits for part in parts], axis=0),
-        np.min([part.gap for part in parts], axis=0),
-        parts[1].knees,
+    n = len(X_ads)
+    hips = (X_hds + np.array([[-travel], [0.0], [travel]])).ravel()
+    heights = np.tile(Z_hds, 3)
+    legs = _legs(np.tile(X_ads, 3), hips, heights, leg)
+    checked = Checked(
+        legs.reached.reshape(3, n).min(axis=0),
+        legs.limits.reshape(3, n, 6).max(axis=0),
+        np.full(n, -np.inf),
+        np.full((n, 2), np.nan),
     )
+    within = checked.within(margin)
+    if within.any():
+        kept = np.tile(within, 3)
+        gap, knees = _clearance(
+            section,
+            (legs.soles[kept], legs.angles[kept]),
+            hips[kept],
+            heights[kept],
+            np.tile(front[within], 3),
+            leg,
+        )
+        checked.gap[within] = gap.reshape(3, -1).min(axis=0)
+        checked.knees[within] = knees.reshape(3, -1, 2)[1]
+    return checked
+
+
+def step_lengths(least: float, params: FeasibilityParams) -> Iterator[Vector]:
+    """Step lengths to look at in one pass each, m, the shortest first.
+
+    The least step itself, at which toe and heel touch the margins, is not among them.
+    """
+    most, by = params.max_step_length + 1e-9, params.step_increment
+    lengths = np.arange(least, most, by)[1:]
+    for first in range(0, len(lengths), BATCH):
+        yield lengths[first : first + BATCH]
 
 
 def feasibility_unit(
@@ -174,56 +241,58 @@ def feasibility_unit(
     inflated = Section(x1 - x0, top)
     toe, heel = leg.outline.toe, leg.outline.heel
     least = toe + heel + inflated.width
-    if least > params.max_step_length:
+    shortest = least + params.step_increment
+    if shortest > params.max_step_length + 1e-9:
         return Feasibility(
             constraint=f"the obstacle is {section.width:.2f} m wide: a step over it is "
-            f"{least:.2f} m long at least, more than {params.max_step_length:.2f} m"
+            f"{shortest:.2f} m long at least, more than {params.max_step_length:.2f} m"
         )
     heights = np.arange(
         walking_waist, params.lowest_waist - 1e-9, -params.height_increment
     )
-    Z, share = (grid.ravel() for grid in np.meshgrid(heights, SLACKS, indexing="ij"))
     margin = params.joint_margin
-    tried: list[tuple[Checked, Mask]] = []
-    for X_ads in np.arange(least, params.max_step_length + 1e-9, params.step_increment):
-        X = np.full(len(Z), X_ads)
+    tried: list[Checked] = []
+    for lengths in step_lengths(least, params):
+        X, Z, share = (
+            grid.ravel()
+            for grid in np.meshgrid(lengths, heights, SLACKS, indexing="ij")
+        )
         front = toe + share * (X - least)
         hips = params.delta_ds * X
-        checked = check_about(inflated, X, hips, Z, front, leg, params.waist_travel)
-        within: Mask = (checked.reached > 0.5) & (checked.limits <= -margin).all(axis=1)
-        free: Mask = within & (checked.gap > 0.0)
+        checked = check_about(
+            inflated, X, hips, Z, front, leg, params.waist_travel, margin
+        )
+        free: Mask = checked.gap > 0.0
         if free.any():
             best = int(np.argmax(free))
             key = KeyConfiguration(
-                float(X_ads),
+                float(X[best]),
                 float(hips[best]),
                 float(Z[best]),
                 float(front[best] - x0),
             )
             return Feasibility(key)
-        tried.append((checked, within))
-    every = Checked(
-        *map(np.concatenate, zip(*(part for part, _ in tried), strict=True))
-    )
-    inside: Mask = np.concatenate([within for _, within in tried])
-    return Feasibility(constraint=failing(every, inside, margin, section))
+        tried.append(checked)
+    every = Checked(*map(np.concatenate, zip(*tried, strict=True)))
+    return Feasibility(constraint=failing(every, margin, section))
 
 
-def failing(checked: Checked, within: Mask, margin: float, section: Section) -> str:
+def failing(checked: Checked, margin: float, section: Section) -> str:
     """The constraint that no configuration meets, in one line.
 
     Args:
         checked: all configurations.
-        within: those that are in reach and within the joint limits, (n,).
         margin: kept from the joint limits, rad.
         section: the obstacle.
     """
     what = f"an obstacle {section.height:.2f} m high and {section.width:.2f} m wide"
+    within = checked.within(margin)
     if within.any():
-        short = -float(checked.gap[within].max())
+        # Rounded up, for what meets the obstacle is never 0 mm deep in it.
+        depth = ceil(-1e3 * float(checked.gap[within].max()))
         return (
             f"Eq. 5: over {what} no double support keeps the legs off the obstacle and "
-            f"its margins; the best is {1e3 * short:.0f} mm too deep"
+            f"its margins; the best is {depth} mm too deep"
         )
     if not (checked.reached > 0.5).any():
         return f"Eq. 1: over {what} the legs are too short for any double support"

@@ -4,10 +4,17 @@ Here x points across the obstacle from its front face on, z up from the ground.
 """
 
 from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from systems.ports import Vector
+
+Mask: TypeAlias = np.ndarray[Any, np.dtype[np.bool_]]
+
+BELOW = 1.0
+"""How far an obstacle goes on below the ground, m."""
 
 
 @dataclass(frozen=True)
@@ -42,51 +49,83 @@ def segments_intersect(p: Vector, q: Vector, o: Vector, r: Vector) -> Vector:
 
 
 def outline_gap(points: Vector, section: Section) -> Vector:
-    """Distance of closed outlines to an obstacle, m; not positive where they meet.
+    """Distance of closed outlines to an obstacle, m; negative where they meet.
 
     Args:
         points: corners in order, (n, k, 2), m; the ground is under z = 0.
         section: the obstacle; it goes on below the ground.
 
     Returns:
-        Least distance, (n,); where an outline meets the obstacle minus how deep its
-        deepest corner (or edge) is in it.
+        Least distance, (n,); where an outline meets the obstacle minus how deep one's
+        corners are in the other, or an edge of the outline in the obstacle.
     """
-    deep = 1.0
-    size = np.array([section.width / 2.0, (section.height + deep) / 2.0])
-    middle = np.array([section.width / 2.0, (section.height - deep) / 2.0])
-    a = points - middle
-    b = np.roll(a, -1, axis=1)
-    corners = size * np.array([[-1.0, 1.0], [1.0, 1.0]])
+    half_x, half_z = section.width / 2.0, (section.height + BELOW) / 2.0
+    # About the middle of the obstacle's rectangle; a and b are the ends of each edge.
+    a_x = points[:, :, 0] - half_x
+    a_z = points[:, :, 1] - (section.height - half_z)
+    b_x, b_z = _next(a_x), _next(a_z)
     # From the corners of the outline to the rectangle.
-    out = np.maximum(np.abs(a) - size, 0.0)
-    inside = (np.abs(a) - size).max(axis=2)
-    gap = np.where(inside > 0.0, np.linalg.norm(out, axis=2), inside).min(axis=1)
+    out_x, out_z = np.abs(a_x) - half_x, np.abs(a_z) - half_z
+    inside = np.maximum(out_x, out_z)
+    out = np.sqrt(np.maximum(out_x, 0.0) ** 2 + np.maximum(out_z, 0.0) ** 2)
+    gap = np.where(inside > 0.0, out, inside).min(axis=1)
     # From the obstacle's upper corners to the outline's edges.
-    edge = b - a
-    length = np.maximum((edge**2).sum(axis=2), 1e-12)
-    for corner in corners:
-        share = np.clip(((corner - a) * edge).sum(axis=2) / length, 0.0, 1.0)
-        offset = corner - (a + share[..., None] * edge)
-        distance = np.linalg.norm(offset, axis=2).min(axis=1)
-        gap = np.where(_contains(a, corner), -distance, np.minimum(gap, distance))
-    top = np.stack(np.broadcast_arrays(corners[0], a), 0)[0]
-    other = np.broadcast_to(corners[1], a.shape)
-    met = segments_intersect(a, b, top, other).any(axis=1)
-    for corner in corners:
-        low = np.broadcast_to(corner * [1.0, -1.0], a.shape)
-        high = np.broadcast_to(corner, a.shape)
-        met |= segments_intersect(a, b, low, high).any(axis=1)
-    return np.asarray(np.where(met, np.minimum(gap, 0.0), gap))
+    edge_x, edge_z = b_x - a_x, b_z - a_z
+    length = np.maximum(edge_x**2 + edge_z**2, 1e-12)
+    above = half_z - a_z
+    # Where the edges pass the height of these corners: a corner is in the outline
+    # when it has an odd number of them on one side.
+    passes = (a_z > half_z) != (b_z > half_z)
+    passed_x = a_x + above * edge_x / np.where(passes, edge_z, 1.0)
+    for corner_x in (-half_x, half_x):
+        ahead = corner_x - a_x
+        share = np.clip((ahead * edge_x + above * edge_z) / length, 0.0, 1.0)
+        offset = (ahead - share * edge_x) ** 2 + (above - share * edge_z) ** 2
+        distance = np.sqrt(offset.min(axis=1))
+        held = (passes & (passed_x > corner_x)).sum(axis=1) % 2 == 1
+        gap = np.where(held, -distance, np.minimum(gap, distance))
+    # An edge may pass through the rectangle with no corner in the other.
+    near = (gap >= 0.0) & (a_z.min(axis=1) < half_z)
+    near &= (a_x.min(axis=1) < half_x) & (a_x.max(axis=1) > -half_x)
+    rows = np.flatnonzero(near)
+    a = np.stack([a_x[rows], a_z[rows]], axis=2)
+    b = np.stack([b_x[rows], b_z[rows]], axis=2)
+    met = _met(a, b, half_x, half_z)
+    gap[rows[met]] = -_edge_depth(a[met], b[met], half_x, half_z)
+    return np.asarray(gap)
 
 
-def _contains(
-    polygon: Vector, point: Vector
-) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-    """Whether closed polygons (n, k, 2) hold a point (2,), by counting crossings."""
-    a, b = polygon, np.roll(polygon, -1, axis=1)
-    above = (a[..., 1] > point[1]) != (b[..., 1] > point[1])
-    rise = np.where(above, b[..., 1] - a[..., 1], 1.0)
-    x = a[..., 0] + (point[1] - a[..., 1]) * (b[..., 0] - a[..., 0]) / rise
-    crossings = (above & (x > point[0])).sum(axis=1)
-    return np.asarray(crossings % 2 == 1)
+def _next(values: Vector) -> Vector:
+    """Of each corner, (n, k), that of the next one."""
+    return np.concatenate([values[:, 1:], values[:, :1]], axis=1)
+
+
+def _met(a: Vector, b: Vector, half_x: float, half_z: float) -> Mask:
+    """Whether edges a-b of outlines, (n, k, 2), cross the sides or the top, (n,)."""
+    met = np.zeros(len(a), dtype=bool)
+    corners = half_x * np.array([-1.0, -1.0, 1.0, 1.0])
+    heights = half_z * np.array([-1.0, 1.0, 1.0, -1.0])
+    around = np.column_stack([corners, heights])
+    for o, r in pairwise(around):
+        met |= segments_intersect(a, b, o, r).any(axis=1)
+    return met
+
+
+def _edge_depth(a: Vector, b: Vector, half_x: float, half_z: float) -> Vector:
+    """How far the deepest point of edges a-b, (n, k, 2), is from sides and top, (n,).
+
+    Along an edge the distance to each face is linear, so that the least of them is
+    largest at an end or where two of them are the same.
+    """
+    start = np.stack([half_x + a[..., 0], half_x - a[..., 0], half_z - a[..., 1]], -1)
+    end = np.stack([half_x + b[..., 0], half_x - b[..., 0], half_z - b[..., 1]], -1)
+    slope = end - start
+    share = np.zeros((*a.shape[:2], 5))
+    share[..., 1] = 1.0
+    for k, (i, j) in enumerate(((0, 1), (0, 2), (1, 2))):
+        steeper = slope[..., j] - slope[..., i]
+        steeper = np.where(np.abs(steeper) > 1e-12, steeper, np.inf)
+        share[..., 2 + k] = (start[..., i] - start[..., j]) / steeper
+    share = np.clip(share, 0.0, 1.0)
+    depth = start[:, :, None] + share[..., None] * slope[:, :, None]
+    return np.asarray(depth.min(axis=3).max(axis=(1, 2), initial=0.0))

@@ -20,6 +20,7 @@ from systems.planning.feasibility_unit import (
     Mask,
     check_about,
     failing,
+    step_lengths,
 )
 from systems.planning.leg_clearance import Section
 from systems.planning.leg_model import LegModel
@@ -138,41 +139,48 @@ def quasi_static_unit(
                 f"sole, less than {quasi.margin:.3f} m"
             )
     least = toe + heel + inflated.width
-    if least > params.max_step_length:
+    shortest = least + params.step_increment
+    if shortest > params.max_step_length + 1e-9:
         return Feasibility(
             constraint=f"the obstacle is {section.width:.2f} m wide: a step over it is "
-            f"{least:.2f} m long at least, more than {params.max_step_length:.2f} m"
+            f"{shortest:.2f} m long at least, more than {params.max_step_length:.2f} m"
         )
     heights = np.arange(
         walking_waist, params.lowest_waist - 1e-9, -params.height_increment
     )
-    share, Z = (grid.ravel() for grid in np.meshgrid(SLACKS, heights, indexing="ij"))
     tried: dict[int, list[tuple[Checked, Vector]]] = {6: [], 8: []}
     possible = {6: False, 8: False}
-    for X_ads in np.arange(least, params.max_step_length + 1e-9, params.step_increment):
-        X = np.full(len(Z), X_ads)
+    for lengths in step_lengths(least, params):
+        X, share, Z = np.meshgrid(lengths, SLACKS, heights, indexing="ij")
         front = toe + share * (X - least)
-        ends: list[tuple[float, Mask]] = []
+        ends: list[tuple[Vector, Mask]] = []
         for number, com, ahead, carrier in (
-            (6, quasi.com_begin, balance.waist_begin, 0),
-            (8, X_ads + quasi.com_end, balance.waist_end, 1),
+            (6, quasi.com_begin + np.zeros(X.size), balance.waist_begin, 0),
+            (8, X.ravel() + quasi.com_end, balance.waist_end, 1),
         ):
-            hips = np.full(len(Z), com + ahead)
-            checked = check_about(inflated, X, hips, Z, front, leg, quasi.waist_travel)
+            checked = check_about(
+                inflated,
+                X.ravel(),
+                com + ahead,
+                Z.ravel(),
+                front.ravel(),
+                leg,
+                quasi.waist_travel,
+                params.joint_margin,
+            )
             load = balance.weight * (checked.knees[:, carrier] - com)
             fine, _ = _acceptable(checked, load, params, quasi, balance, section)
             possible[number] |= bool(fine.any())
             tried[number].append((checked, load))
-            ends.append((com + ahead, fine.reshape(-1, len(heights))))
-        both = ends[0][1].any(axis=1) & ends[1][1].any(axis=1)
+            ends.append(((com + ahead).reshape(X.shape), fine.reshape(X.shape)))
+        both = ends[0][1].any(axis=2) & ends[1][1].any(axis=2)
         if both.any():
-            case = int(np.argmax(both))
-            begin, end = (float(heights[np.argmax(fine[case])]) for _, fine in ends)
-            where = float(front[case * len(heights)] - x0)
+            i, j = np.unravel_index(int(np.argmax(both)), both.shape)
+            begin, end = (float(heights[np.argmax(fine[i, j])]) for _, fine in ends)
+            hips = [float(waist[i, j, 0]) for waist, _ in ends]
+            where = float(front[i, j, 0] - x0)
             return Feasibility(
-                KeyConfiguration(
-                    float(X_ads), ends[0][0], begin, where, ends[1][0], end
-                )
+                KeyConfiguration(float(lengths[i]), hips[0], begin, where, hips[1], end)
             )
     for number, foot in ((6, "rear"), (8, "front")):
         if possible[number]:
@@ -199,12 +207,9 @@ def _acceptable(
     section: Section,
 ) -> tuple[Mask, str]:
     """Which configurations will do, (n,), and why none does."""
-    within: Mask = (checked.reached > 0.5) & (
-        checked.limits <= -params.joint_margin
-    ).all(axis=1)
-    free: Mask = within & (checked.gap > 0.0)
+    free: Mask = checked.gap > 0.0
     if not free.any():
-        return free, failing(checked, within, params.joint_margin, section)
+        return free, failing(checked, params.joint_margin, section)
     most = quasi.torque_share * balance.knee_effort
     fine: Mask = free & (load <= most)
     if not fine.any():

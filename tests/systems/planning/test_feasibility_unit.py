@@ -1,14 +1,17 @@
 """FU: yes with a configuration, no with the constraint that fails."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from systems.planning import feasibility_unit as unit
 from systems.planning.feasibility_maps import feasibility_maps
 from systems.planning.feasibility_unit import (
     Checked,
     FeasibilityParams,
+    check_about,
     check_double_support,
     feasibility_unit,
 )
@@ -68,6 +71,73 @@ def test_it_says_which_constraint_fails() -> None:
     tall = feasibility_unit(Section(0.05, 0.75), WAIST, leg, params)
     assert tall.key is None
     assert "Eq. 5" in tall.constraint
+
+
+@pytest.mark.parametrize("height", [0.27, 0.35])
+def test_a_refusal_says_how_deep(height: float) -> None:
+    """More than nothing; with margins smaller by that and half a grid step it goes."""
+    leg, params = body().leg, FeasibilityParams()
+    answer = feasibility_unit(Section(0.05, height), WAIST, leg, params)
+    found = re.search(r"the best is (-?\d+) mm too deep", answer.constraint)
+    assert found is not None
+    depth = 1e-3 * int(found[1])
+    assert depth >= 0.001
+    room = depth + 0.5 * params.step_increment
+    less = replace(params, s_w=params.s_w - room, s_h=params.s_h - room)
+    assert feasibility_unit(Section(0.05, height), WAIST, leg, less).key is not None
+
+
+def test_feet_that_would_touch_their_margins_have_no_room() -> None:
+    """The least step is not long enough; one increment more may be."""
+    leg, params = body().leg, FeasibilityParams()
+    feet = leg.outline.toe + leg.outline.heel + 2.0 * params.s_w
+    width = params.max_step_length - feet
+    narrow = Section(width - params.step_increment, 0.0)
+    assert feasibility_unit(narrow, WAIST, leg, params).key is not None
+    refused = feasibility_unit(Section(width - 0.004, 0.0), WAIST, leg, params)
+    assert "a step over it is 0.57 m long at least" in refused.constraint
+
+
+@pytest.mark.parametrize("batch", [1, 100])
+def test_step_lengths_in_one_pass_are_as_one_by_one(
+    monkeypatch: pytest.MonkeyPatch, batch: int
+) -> None:
+    """The same answer, be it yes or no."""
+    sections = [Section(0.05, h) for h in (0.0, 0.15, 0.21, 0.25, 0.30)]
+
+    def answers() -> list[object]:
+        return [
+            feasibility_unit(section, WAIST, body().leg, FeasibilityParams())
+            for section in sections
+        ]
+
+    usual = answers()
+    monkeypatch.setattr(unit, "BATCH", batch)
+    assert answers() == usual
+
+
+def test_the_worst_while_the_waist_travels() -> None:
+    """Of each place of the waist by itself, where the legs can."""
+    leg, section = body().leg, Section(0.05, 0.2)
+    grid = np.meshgrid([0.40, 0.48, 0.60], [0.6, 0.7, 0.79], [0.1, 0.2], indexing="ij")
+    X, Z, front = (part.ravel() for part in grid)
+    found = check_about(section, X, 0.5 * X, Z, front, leg, 0.07, 0.05)
+    parts = [
+        check_double_support(section, X, 0.5 * X + way, Z, front, leg)
+        for way in (-0.07, 0.0, 0.07)
+    ]
+    np.testing.assert_array_equal(
+        found.reached, np.min([part.reached for part in parts], axis=0)
+    )
+    np.testing.assert_allclose(
+        found.limits, np.max([part.limits for part in parts], axis=0), atol=1e-12
+    )
+    within = found.within(0.05)
+    assert 0 < within.sum() < len(X)
+    gap = np.min([part.gap for part in parts], axis=0)
+    np.testing.assert_allclose(found.gap[within], gap[within], atol=1e-12)
+    np.testing.assert_allclose(found.knees[within], parts[1].knees[within], atol=1e-12)
+    assert (found.gap[~within] == -np.inf).all()
 
 
 def test_dynamic_maps_allow_higher_waists_than_quasi_static_ones() -> None:

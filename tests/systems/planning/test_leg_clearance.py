@@ -38,6 +38,24 @@ def test_an_edge_over_the_corner_counts() -> None:
     assert outline_gap(triangle, Section(0.05, 0.2))[0] == pytest.approx(0.05)
 
 
+@pytest.mark.parametrize(
+    ("line", "gap"),
+    [
+        ([[-0.1, 0.15], [0.15, 0.15]], -0.025),
+        ([[-0.1, 0.19], [0.15, 0.19]], -0.01),
+        ([[0.02, 0.5], [0.02, -0.5]], -0.02),
+        ([[-0.12, 0.06], [0.12, 0.30]], -0.01),
+        ([[0.12, 0.11], [0.06, 0.17]], np.hypot(0.01, 0.0)),
+    ],
+)
+def test_an_edge_that_passes_through_is_as_deep_as_its_deepest_point(
+    line: list[list[float]], gap: float
+) -> None:
+    """From side to side, near the top, from the top, a corner cut off; and beside."""
+    found = outline_gap(np.array([line]), Section(0.05, 0.2))[0]
+    assert found == pytest.approx(gap, abs=1e-9)
+
+
 def test_an_outline_around_the_obstacle_meets_it() -> None:
     """No corner of the outline is inside and no distance is small."""
     assert outline_gap(_square(-1.0, -2.0, 3.0), Section(0.05, 0.2))[0] <= 0.0

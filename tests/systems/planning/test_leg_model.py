@@ -7,7 +7,12 @@ from pydrake.math import RollPitchYaw
 
 from models.jvrc1 import JVRC1
 from models.robot_loader import body_meshes
-from systems.planning.leg_model import leg_angles, outline_points, rotations
+from systems.planning.leg_model import (
+    both_leg_angles,
+    leg_angles,
+    outline_points,
+    rotations,
+)
 from systems.ports import Vector
 from systems.values import FEET, Foot
 from tests.systems.planning.crossing_cases import body, scratch
@@ -42,6 +47,24 @@ def test_angles_are_those_that_made_the_pose(foot: Foot) -> None:
         np.testing.assert_allclose(
             p_WK[0], knee.EvalPoseInWorld(context).translation(), atol=1e-9
         )
+
+
+def test_both_legs_are_one_and_one() -> None:
+    """In one pass as each by itself, one of them out of reach."""
+    leg, n = body().leg, 12
+    rng = np.random.default_rng(4)
+    waist = np.array([0.0, 0.0, 0.65]) + rng.uniform(-0.03, 0.03, (n, 3))
+    R_WP = rotations(rng.uniform(-0.2, 0.2, (n, 3)))
+    soles = rng.uniform(-0.1, 0.1, (n, 2, 6))
+    soles[:, :, 1] += [0.095, -0.095]
+    soles[5, 1, 2] -= 0.3
+    both = both_leg_angles(leg, waist, R_WP, soles)
+    for i, foot in enumerate(FEET):
+        one = leg_angles(leg, foot, waist, R_WP, soles[:, i])
+        np.testing.assert_allclose(both.angles[:, i], one.angles, atol=1e-12)
+        np.testing.assert_allclose(both.short[:, i], one.short, atol=1e-12)
+    assert both.short[5, 1] > 0.1
+    assert np.count_nonzero(both.short) == 1
 
 
 def test_out_of_reach_is_told_by_how_much() -> None:
