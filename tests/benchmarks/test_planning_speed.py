@@ -1,4 +1,4 @@
-"""How long footstep planning takes."""
+"""How long planning takes: footsteps, a step's way, the crossing of an obstacle."""
 
 from typing import Any
 
@@ -7,10 +7,14 @@ import pytest
 from pydrake.math import RigidTransform, RollPitchYaw
 
 from models.robot import Sole
+from systems.planning.crossing_params import CrossingParams
+from systems.planning.feasibility_unit import feasibility_unit
 from systems.planning.footstep_params import FootstepPlannerParams
 from systems.planning.footstep_planner import plan_footsteps
+from systems.planning.leg_clearance import Section
 from systems.planning.swing_trajectory import SwingParams, swing_trajectory
 from systems.values import PlaneSegment, Staircase
+from tests.systems.planning.crossing_cases import WAIST, body, planned
 
 SOLE = Sole(heel=0.075, toe=0.150, half_width=0.042, ankle_height=0.1077)
 
@@ -57,3 +61,20 @@ def test_swing_trajectory(benchmark: Any) -> None:
         swing_trajectory, X_WStart, X_WEnd, 0.85, 0.005, edges, SOLE, SwingParams()
     )
     assert swing.status == "ok"
+
+
+@pytest.mark.parametrize("height", [0.15, 0.25, 0.35])
+def test_feasibility_unit(benchmark: Any, height: float) -> None:
+    """FU over 5 cm: soon found, found late, and refused."""
+    margins = CrossingParams().feasibility
+    answer = benchmark(
+        feasibility_unit, Section(0.05, height), WAIST, body().leg, margins
+    )
+    assert (answer.key is None) == (height > 0.3)
+
+
+@pytest.mark.parametrize("height", [0.15, 0.20])
+def test_crossing(benchmark: Any, height: float) -> None:
+    """FU to FTA for six steps over 5 cm."""
+    motion, _ = benchmark(planned, 0.05, height)
+    assert motion.report.gap > 0.0

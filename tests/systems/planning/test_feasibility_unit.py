@@ -14,6 +14,7 @@ from systems.planning.feasibility_unit import (
     check_about,
     check_double_support,
     feasibility_unit,
+    step_lengths,
 )
 from systems.planning.leg_clearance import Section
 from tests.systems.planning.crossing_cases import WAIST, body
@@ -94,6 +95,8 @@ def test_feet_that_would_touch_their_margins_have_no_room() -> None:
     width = params.max_step_length - feet
     narrow = Section(width - params.step_increment, 0.0)
     assert feasibility_unit(narrow, WAIST, leg, params).key is not None
+    tried = np.concatenate(list(step_lengths(0.40, params)))
+    np.testing.assert_allclose(tried, np.arange(0.41, 0.565, 0.01), atol=1e-9)
     refused = feasibility_unit(Section(width - 0.004, 0.0), WAIST, leg, params)
     assert "a step over it is 0.57 m long at least" in refused.constraint
 
