@@ -115,7 +115,10 @@ def _optimality_conditions(c: Vector, T: float, Q: float, R: float) -> Vector:
     band = np.zeros((2 * _BAND + 1, 3 * n))
 
     def put(row: Index, column: Index, value: Vector | float) -> None:
-        np.add.at(band, (_BAND + row - column, column), value)
+        # Both run in steps of a tick, so that they are one diagonal.
+        if len(row):
+            diagonal = band[_BAND + row[0] - column[0]]
+            diagonal[column[0] : column[-1] + 1 : 3] += value
 
     k = np.arange(n)
     inner = k[1:-1]

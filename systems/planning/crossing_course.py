@@ -111,6 +111,7 @@ class Course:
         repairs: Repairs,
         rows: Index,
         guess: Vector | None = None,
+        soles: Vector | None = None,
     ) -> BodyMotion:
         """IK and UBMG at some ticks."""
         rounds = 1
@@ -119,11 +120,10 @@ class Course:
             rounds = 2 if self.mode == "quasi_static" else 1
         return body_motion(
             self.body,
-            self.context,
             moved.com[rows],
             height[rows],
             self.rpy[rows],
-            self.soles(repairs, self.time[rows]),
+            self.soles(repairs, self.time[rows]) if soles is None else soles,
             self.arms[rows],
             guess,
             rounds,
@@ -132,7 +132,7 @@ class Course:
     def multibody_zmp(self, motion: BodyMotion) -> Vector:
         """p_MB at `rows`, (m, 2), m."""
         ground = self.zmp[self.rows, 2]
-        return body_zmp(self.body, self.context, motion.q, ground, self.tick)
+        return body_zmp(self.body, motion.q, ground, self.tick)
 
     def at_every_tick(self, values: Vector) -> Vector:
         """Values at `rows` spread over all ticks, (n, ...)."""
@@ -152,10 +152,17 @@ class Course:
             for o in self.obstacles
         )
 
+        masses: dict[tuple[float, float], tuple[ComMotion, Vector, Vector]] = {}
+
         def poses_of(repairs: Repairs) -> LegPoses:
-            moved, height, _ = self.single_mass(repairs)
-            motion = self.body_along(moved, height, repairs, looked)
-            return LegPoses(motion.angles, self.soles(repairs, self.time[looked]))
+            # The other repairs change the feet alone.
+            heights = (repairs.raised, repairs.lowered)
+            if heights not in masses:
+                masses[heights] = self.single_mass(repairs)
+            moved, height, _ = masses[heights]
+            soles = self.soles(repairs, self.time[looked])
+            motion = self.body_along(moved, height, repairs, looked, soles=soles)
+            return LegPoses(motion.angles, soles)
 
         def gaps_of(poses: LegPoses) -> Vector:
             shifts = [margins.s_w] * len(inflated)

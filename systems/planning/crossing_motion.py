@@ -91,7 +91,7 @@ def plan_crossing(
         zmp,
         rpy,
         arms,
-        waist_over(body, context, com, feet, rpy[0]),
+        waist_over(body, com, feet, rpy[0]),
         obstacles,
         keys,
         walking,

@@ -49,7 +49,6 @@ def balance_of(
     rpy = np.array([[0.0, 0.0, 0.0], [0.0, quasi.lean, 0.0]])
     found = body_motion(
         body,
-        context,
         com,
         np.full(2, TYPICAL_WAIST),
         rpy,

@@ -6,7 +6,6 @@ from typing import NamedTuple
 
 import numpy as np
 from pydrake.multibody.plant import MultibodyPlant
-from pydrake.systems.framework import Context
 
 from models.robot import RobotModel
 from systems.balance.dynamic_filter import multibody_zmp
@@ -51,7 +50,6 @@ class BodyMotion(NamedTuple):
 
 def body_motion(
     body: WholeBody,
-    context: Context,
     com: Vector,
     waist_height: Vector,
     waist_rpy: Vector,
@@ -67,7 +65,6 @@ def body_motion(
 
     Args:
         body: the robot.
-        context: scratch context of its plant.
         com: horizontal CoM, (n, 2), m.
         waist_height: of the pelvis, (n,), m.
         waist_rpy: of the pelvis, (n, 3), rad.
@@ -94,14 +91,11 @@ def body_motion(
     return BodyMotion(q, waist, p_WCom, legs, short)
 
 
-def waist_over(
-    body: WholeBody, context: Context, com: Vector, feet: Vector, rpy: Vector
-) -> Vector:
+def waist_over(body: WholeBody, com: Vector, feet: Vector, rpy: Vector) -> Vector:
     """Where the pelvis is when the CoM is at rest at `com`, (3,), m.
 
     Args:
         body: the robot.
-        context: scratch context of its plant.
         com: p_WCom, (3,), m.
         feet: sole poses, (2, 6).
         rpy: of the pelvis, (3,), rad.
@@ -111,7 +105,6 @@ def waist_over(
     for _ in range(8):
         found = body_motion(
             body,
-            context,
             com[None, :2],
             np.array([height]),
             rpy[None],
@@ -130,14 +123,11 @@ def waist_above_com(body: WholeBody) -> float:
     return -float(com_in_base(tree, tree.posture[None, tree.columns])[0, 2])
 
 
-def body_zmp(
-    body: WholeBody, context: Context, q: Vector, zmp_height: Vector, period: float
-) -> Vector:
+def body_zmp(body: WholeBody, q: Vector, zmp_height: Vector, period: float) -> Vector:
     """p_MB: the ZMP of a motion of the whole robot (Eq. 20), (n, 2), m.
 
     Args:
         body: the robot.
-        context: scratch context of its plant.
         q: positions, (n, nq).
         zmp_height: height of the ground under the ZMP, (n,), m.
         period: between rows, s.

@@ -55,7 +55,6 @@ def test_one_leg_alone_carries_more_than_with_the_other() -> None:
     feet[:, 0, 1], feet[:, 1, 1] = 0.095, -0.095
     stand = body_motion(
         body(),
-        scratch(),
         np.array([[0.03, 0.05]]),
         np.array([0.70]),
         np.zeros((1, 3)),

@@ -21,7 +21,7 @@ def _on_right(height: Vector) -> tuple[Vector, Vector]:
     feet[:, 0, 2] = 0.05
     com = np.tile([0.03, -0.09], (n, 1))
     rpy: Vector = np.zeros((n, 3))
-    motion = body_motion(body(), scratch(), com, height, rpy, feet, 0.0, rounds=6)
+    motion = body_motion(body(), com, height, rpy, feet, 0.0, rounds=6)
     return motion.q, feet
 
 

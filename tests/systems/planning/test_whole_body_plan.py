@@ -36,7 +36,7 @@ def test_com_feet_waist_and_arms_are_where_they_are_to_be() -> None:
     """Forward kinematics by the plant."""
     com, height, rpy, feet, arms = _swaying()
     plant, robot, context = body().plant, body().robot, scratch()
-    motion = body_motion(body(), context, com, height, rpy, feet, arms, rounds=5)
+    motion = body_motion(body(), com, height, rpy, feet, arms, rounds=5)
     p_BF: Vector = np.array([0.0, 0.0, -robot.sole.ankle_height])
     for row in range(0, N, 13):
         plant.SetPositions(context, motion.q[row])
@@ -61,7 +61,7 @@ def test_a_leg_that_is_too_short_is_told() -> None:
     """By how much, and only that one."""
     com, height, rpy, feet, arms = _swaying()
     motion = body_motion(
-        body(), scratch(), com[:1], height[:1] + 0.2, 0.0 * rpy[:1], feet[:1], arms[:1]
+        body(), com[:1], height[:1] + 0.2, 0.0 * rpy[:1], feet[:1], arms[:1]
     )
     assert (motion.short > 0.01).all()
 
@@ -94,7 +94,6 @@ def test_the_zmp_of_a_robot_at_rest_is_under_its_com() -> None:
     ground = np.zeros(9)
     motion = body_motion(
         body(),
-        scratch(),
         still[0],
         np.full(9, height[0]),
         still[1],
@@ -102,7 +101,7 @@ def test_the_zmp_of_a_robot_at_rest_is_under_its_com() -> None:
         0.0,
         rounds=5,
     )
-    p_MB = body_zmp(body(), scratch(), motion.q, ground, PERIOD)
+    p_MB = body_zmp(body(), motion.q, ground, PERIOD)
     np.testing.assert_allclose(p_MB, motion.com[:, :2], atol=1e-6)
     t = PERIOD * np.arange(9)
     q = motion.q.copy()
@@ -114,7 +113,7 @@ def test_the_zmp_of_a_robot_at_rest_is_under_its_com() -> None:
     force[:, 0] = mass * 0.4
     spin = np.cross(moved, force)
     want = zmp_of_rates(mass, moved, force, spin, ground)
-    found = body_zmp(body(), scratch(), q, ground, PERIOD)
+    found = body_zmp(body(), q, ground, PERIOD)
     np.testing.assert_allclose(found[3:-3], want[3:-3], atol=1e-6)
 
 
@@ -128,10 +127,9 @@ def test_the_pelvis_is_found_for_a_com_that_rests() -> None:
     feet: Vector = np.zeros((2, 6))
     feet[0, 1], feet[1, 1] = 0.095, -0.095
     com, rpy = np.array([0.03, 0.01, 0.82]), np.array([0.0, 0.1, 0.0])
-    waist = waist_over(body(), scratch(), com, feet, rpy)
+    waist = waist_over(body(), com, feet, rpy)
     motion = body_motion(
         body(),
-        scratch(),
         com[None, :2],
         waist[None, 2],
         rpy[None],
