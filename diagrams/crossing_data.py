@@ -17,6 +17,7 @@ from diagrams.station import robot_alone
 from models.solids import Box
 from systems.obstacle_values import KeyConfiguration, Obstacle, across
 from systems.planning.crossing_motion import plan_crossing
+from systems.planning.crossing_params import CrossingParams, ways_of_crossing
 from systems.planning.crossing_report import BodyCurves, CrossingMotion
 from systems.planning.feet_adaptor import Repairs
 from systems.ports import Vector
@@ -60,6 +61,8 @@ class PlannedCrossing:
     obstacles: tuple[Obstacle, ...]
     """What is crossed, as it was seen."""
     keys: tuple[KeyConfiguration, ...]
+    way: int
+    """Which of `ways_of_crossing` the planner took."""
     repairs: Repairs
     """What the feet adaptor changed."""
     phases: tuple[Phases, ...]
@@ -130,6 +133,7 @@ def _planned(value: Mapping[str, Any]) -> PlannedCrossing:
             for item in report["obstacles"]
         ),
         keys=tuple(KeyConfiguration(**key) for key in report["keys"]),
+        way=int(report["way"]),
         repairs=Repairs(
             **{**report["repairs"], "path": _array(report["repairs"]["path"])}
         ),
@@ -166,6 +170,11 @@ class CrossingData:
     data: RunData
     plans: tuple[PlannedCrossing, ...]
     """At least one."""
+
+    def params(self, plan: PlannedCrossing) -> CrossingParams:
+        """Of the way in which a plan crosses."""
+        params = self.data.run.scenario.parameters.crossing
+        return ways_of_crossing(params)[plan.way]
 
     @property
     def axes(self) -> Vector:
@@ -210,14 +219,16 @@ def read_crossings(data: RunData) -> CrossingData | None:
     return CrossingData(data, plans) if plans else None
 
 
-def without_adaptation(data: RunData, planned: PlannedCrossing) -> CrossingMotion:
+def without_adaptation(
+    crossing: CrossingData, planned: PlannedCrossing
+) -> CrossingMotion:
     """The same motion without the feet adaptor and the arms (Fig. 7, "before").
 
     Args:
-        data: the run, whose parameters are taken.
+        crossing: the run, whose parameters are taken.
         planned: what was carried out.
     """
-    scenario = data.run.scenario
+    scenario = crossing.data.run.scenario
     robot, params = scenario.robot.model(), scenario.parameters
     body = planning_body(robot, robot_alone(robot))
     motion = plan_crossing(
@@ -227,7 +238,7 @@ def without_adaptation(data: RunData, planned: PlannedCrossing) -> CrossingMotio
         planned.obstacles,
         planned.keys,
         params.motion_planner,
-        replace(params.crossing, max_repairs=0, arm_swing=0.0),
+        replace(crossing.params(planned), max_repairs=0, arm_swing=0.0),
         params.zmp_preview,
         body,
         body.plant.CreateDefaultContext(),

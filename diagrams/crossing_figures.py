@@ -42,7 +42,7 @@ def adaptation_figure(crossing: CrossingData) -> Figure:
     x, _ = crossing.axes
     motion = crossing.data.motion
     for plan in crossing.plans:
-        bare = without_adaptation(crossing.data, plan)
+        bare = without_adaptation(crossing, plan)
         curves = bare.report.curves
         assert curves is not None
         start = bare.start_time

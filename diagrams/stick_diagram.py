@@ -94,7 +94,7 @@ class _Plane:
         self, crossing: CrossingData, plan: PlannedCrossing, index: int
     ) -> None:
         self.obstacle: Obstacle = plan.obstacles[index]
-        self.margins = crossing.data.run.scenario.parameters.crossing.feasibility
+        self.margins = crossing.params(plan).feasibility
         box = crossing.true_box(self.obstacle)
         self.x_W = across(self.obstacle.yaw)
         self.origin = self.obstacle.center

@@ -168,7 +168,7 @@ class CrossingPlanner(LeafSystem):
         scratch = self._scratch(context)
         spent: dict[str, float] = {"FU": 0.0, "FTG to FTA": 0.0}
         refused = FootstepPlan()
-        for crossing in self._ways if ahead else self._ways[:1]:
+        for way, crossing in enumerate(self._ways if ahead else self._ways[:1]):
             begun = perf_counter()
             answers = self._feasibilities(ahead, crossing, scratch)
             steps = plan_crossing_steps(
@@ -195,7 +195,7 @@ class CrossingPlanner(LeafSystem):
             )
             spent["FTG to FTA"] += 1e3 * (perf_counter() - asked)
             report = dataclasses.replace(
-                motion.report, planning_ms=tuple(spent.items())
+                motion.report, way=way, planning_ms=tuple(spent.items())
             )
             refusal = refusal_of(report, crossing)
             if not refusal:

@@ -58,6 +58,8 @@ class CrossingReport(Value):
     """The key configuration of each."""
     phases: tuple[tuple[float, float], ...] = ()
     """When phase 1 begins and phase 3 ends over each, s after the motion's start."""
+    way: int = 0
+    """Which of `ways_of_crossing` it goes."""
     planning_ms: tuple[tuple[str, float], ...] = ()
     """Wall time of FU and of FTG to FTA, ms."""
     torque_share: float = 0.0

@@ -1,5 +1,7 @@
 """Crossings read back from a run's log."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -69,11 +71,22 @@ def test_obstacle_and_box_are_matched(crossing) -> None:
 def test_without_adaptation_nothing_is_repaired(crossing) -> None:
     """The same feet; the waist is 2 cm higher where the adaptor has lowered it."""
     (plan,) = crossing.plans
-    bare = without_adaptation(crossing.data, plan)
+    bare = without_adaptation(crossing, plan)
     assert bare.report.repairs.lowered == 0.0
     assert bare.start_time == plan.time[0]
     lowered = bare.report.curves.waist[:, 2] - plan.curves.waist[:, 2]
     assert lowered.max() == pytest.approx(plan.repairs.lowered, abs=1e-6)
+
+
+def test_the_parameters_are_those_of_the_way_that_was_taken(crossing) -> None:
+    """Over 15 cm the first; a plan of another way is read with that way's."""
+    (plan,) = crossing.plans
+    assert plan.way == 0
+    params = crossing.data.run.scenario.parameters.crossing
+    assert crossing.params(plan) == params
+    high = crossing.params(replace(plan, way=2))
+    assert high.feasibility.s_w == params.high.margins[1]
+    assert high.single_support == params.high.single_support
 
 
 def test_runs_without_crossings_have_none(tmp_path, standing, crossed_folder) -> None:

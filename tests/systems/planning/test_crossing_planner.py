@@ -257,6 +257,7 @@ def test_a_high_obstacle_is_crossed_in_the_second_way() -> None:
         2.0 * params.single_support + params.double_support
     )
     assert motion.report.gap > params.least_gap
+    assert motion.report.way == 1
 
 
 def test_what_is_not_seen_well_waits_for_the_next_look() -> None:
