@@ -13,7 +13,7 @@ import shapely  # type: ignore[import-untyped]
 
 from models.robot import Sole
 from systems.obstacle_values import Obstacle, ObstacleMap
-from systems.planning.crossing_footsteps import along_way
+from systems.planning.crossing_footsteps import FAR, along_way
 from systems.planning.foothold import Refusal, rotate, wrap
 from systems.ports import Vector
 
@@ -78,8 +78,9 @@ def seen_leg(
             stop = min(stop, front - sole.toe - ROOM)
     if distance <= stop:
         return Leg(goal, seen.obstacles, final=True)
-    for obstacle in certain:
-        front, back = along_way(obstacle, start[:2], yaw)
+    # Farthest first: where one moves the stop, the next before it has its say.
+    extents = [along_way(obstacle, start[:2], yaw) for obstacle in certain]
+    for front, back in sorted(extents, reverse=True):
         if front < stop + sole.toe + ROOM and back + BEYOND > stop:
             stop = min(stop, front - sole.toe - ROOM)
     if stop >= LEAST:
@@ -97,6 +98,6 @@ def _seen_along(outline: Vector) -> float:
     """How far along x from the origin lies in an outline (n, 2), m."""
     if len(outline) < 3:
         return 0.0
-    ray = shapely.LineString([(0.0, 0.0), (100.0, 0.0)])
+    ray = shapely.LineString([(0.0, 0.0), (FAR, 0.0)])
     cut = shapely.get_coordinates(shapely.intersection(ray, shapely.Polygon(outline)))
     return float(cut[:, 0].max(initial=0.0))

@@ -94,3 +94,11 @@ def test_a_short_way_needs_no_look() -> None:
     """A correction of the stance, whichever way."""
     leg = _planned(_leg(goal=np.array([-0.1, 0.05, 0.0])))
     assert leg.final
+
+
+def test_a_stop_before_one_obstacle_is_not_on_the_landing_beyond_another() -> None:
+    """In whichever order they were seen."""
+    near, far = _box(1.4), _box(2.0)
+    for boxes in ((near, far), (far, near)):
+        leg = _planned(_leg(*boxes, goal=np.array([4.0, 0.0, 0.0])))
+        assert leg.goal[0] + TOE < 1.375 - 0.1
