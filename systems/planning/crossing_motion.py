@@ -5,40 +5,26 @@ III); FU has been asked before, when the footsteps were placed.
 """
 
 import dataclasses
-from typing import Any, TypeAlias
 
 import numpy as np
 from pydrake.systems.framework import Context
 from scipy.interpolate import CubicSpline
 
 from systems.balance.dynamic_filter import filter_motion_varying_height
-from systems.balance.zmp_preview import (
-    GRAVITY,
-    ZmpPreviewParams,
-)
+from systems.balance.zmp_preview import GRAVITY, ZmpPreviewParams
 from systems.obstacle_values import KeyConfiguration, Obstacle
 from systems.planning.com_trajectory_generator import com_tracker
 from systems.planning.crossing_appraisal import appraise, hopeless, static_balance
 from systems.planning.crossing_course import Course
 from systems.planning.crossing_params import CrossingParams, Mode, slowed
 from systems.planning.crossing_posture import arm_swing, waist_rpy
-from systems.planning.crossing_report import (
-    CrossingMotion,
-)
+from systems.planning.crossing_report import CrossingMotion
 from systems.planning.crossing_timing import time_steps, zmp_reference
 from systems.planning.motion_params import MotionPlannerParams
 from systems.planning.step_timing import contact_phases
-from systems.planning.whole_body_plan import (
-    BodyMotion,
-    WholeBody,
-    waist_over,
-)
+from systems.planning.whole_body_plan import BodyMotion, WholeBody, waist_over
 from systems.ports import Vector
 from systems.values import FEET, Footstep
-
-TORQUE_TICK = 0.1
-"""Between the postures of a quasi-static crossing whose torques are looked at, s."""
-Index: TypeAlias = np.ndarray[Any, np.dtype[np.intp]]
 
 
 def plan_crossing(
