@@ -7,7 +7,7 @@ from pydrake.systems.framework import DiagramBuilder
 from pydrake.systems.primitives import ConstantVectorSource
 
 from diagrams.scenario import ROBOTS, Scenario
-from diagrams.station import add_lidar, add_station
+from diagrams.station import FURNITURE, add_lidar, add_station
 from diagrams.task_diagram import TaskDiagram, build_diagram
 from diagrams.walking import add_walking, initial_stand
 from diagrams.walking_signals import VALUE_PERIOD, record_walking
@@ -20,9 +20,6 @@ from systems.planning.executive import Executive
 from systems.planning.leg_model import leg_model, leg_outline
 from systems.planning.whole_body_plan import WholeBody
 from systems.ports import Vector
-
-FORBIDDEN = ("box/", "room/wall", "room/ceiling")
-"""What the robot must not touch, with its soles neither."""
 
 
 def planning_body(robot: RobotModel, model: MultibodyPlant) -> WholeBody:
@@ -56,7 +53,7 @@ def build_obstacle_crossing(
     builder = DiagramBuilder()
 
     station = add_station(
-        builder, scenario, robot, params.ik.period, FORBIDDEN, soles_allowed=False
+        builder, scenario, robot, params.ik.period, FURNITURE, soles_allowed=False
     )
     lidar, assembler = add_lidar(builder, scenario, station)
     finder = add_system(

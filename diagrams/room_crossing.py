@@ -9,7 +9,7 @@ from pydrake.systems.primitives import ConstantValueSource, ConstantVectorSource
 from diagrams.evidence import MOVERS_SIGNAL
 from diagrams.room_perception import add_perception
 from diagrams.scenario import ROBOTS, Scenario
-from diagrams.station import add_station
+from diagrams.station import FURNITURE, add_station
 from diagrams.task_diagram import TaskDiagram, build_diagram
 from diagrams.walking import add_walking, initial_stand
 from diagrams.walking_signals import SIGNAL_PERIOD, VALUE_PERIOD, record_walking
@@ -21,9 +21,6 @@ from systems.planning.path_footstep_planner import PathFootstepPlanner
 from systems.planning.path_planner import PathPlanner
 from systems.ports import Vector
 from systems.values import MotionPlan, Staircase
-
-FORBIDDEN = ("box/", "room/wall", "room/ceiling")
-"""What the robot must not touch, with its soles neither."""
 
 
 def build_room_crossing(
@@ -46,7 +43,7 @@ def build_room_crossing(
     builder = DiagramBuilder()
 
     station = add_station(
-        builder, scenario, robot, params.ik.period, FORBIDDEN, soles_allowed=False
+        builder, scenario, robot, params.ik.period, FURNITURE, soles_allowed=False
     )
     frame, environment = add_perception(builder, scenario, station)
 

@@ -32,6 +32,8 @@ from systems.sensing.kinematic_state import KinematicState
 from systems.sensing.ray_caster import BodyMesh
 from systems.sensing.tilting_lidar import TiltingLidar
 
+FURNITURE = ("box/", "room/wall", "room/ceiling")
+"""What a robot in a room must not touch, with its soles neither."""
 STAIRCASE_PREFIX = "staircase/"
 """What the names of the staircase's solids begin with."""
 
