@@ -18,12 +18,7 @@ from models.room_obstacles import place_boxes
 from models.scene import SceneParams
 from models.solids import upright_pose
 from models.staircase import StaircaseParams
-from models.validation import (
-    require_at_least,
-    require_finite,
-    require_one_of,
-    require_positive,
-)
+from models.validation import LARGEST_SEED, Parameters, choice, number
 from systems.balance.landing_adaptor import LandingParams
 from systems.balance.stabilizer import StabilizerParams
 from systems.balance.zmp_preview import ZmpPreviewParams
@@ -53,36 +48,25 @@ class ScenarioError(ValueError):
 
 
 @dataclass(kw_only=True)
-class RobotParams:
+class RobotParams(Parameters):
     """The robot and where it starts."""
 
-    name: str = "jvrc1"
+    name: str = choice("jvrc1", tuple(ROBOTS))
     """Which robot."""
-    x: float = 0.0
+    x: float = number(0.0, "m")
     """Midpoint of its feet along x of W, m."""
-    y: float = 0.0
+    y: float = number(0.0, "m")
     """Midpoint of its feet along y of W, m."""
-    yaw: float = 0.0
+    yaw: float = number(0.0, "rad")
     """Where it faces, about z of W from its x, rad."""
 
     def model(self) -> RobotModel:
         """The robot's names, sole, postures and gains."""
         return ROBOTS[self.name]
 
-    def validate(self) -> None:
-        """Checks every field.
-
-        Raises:
-            ValueError: "field: reason, got x" for the first field that is wrong.
-        """
-        require_one_of("name", self.name, tuple(ROBOTS))
-        require_finite("x", self.x, "m")
-        require_finite("y", self.y, "m")
-        require_finite("yaw", self.yaw, "rad")
-
 
 @dataclass(kw_only=True)
-class SensorsParams:
+class SensorsParams(Parameters):
     """What the robot senses with."""
 
     camera: DepthCameraParams = field(default_factory=DepthCameraParams)
@@ -92,7 +76,7 @@ class SensorsParams:
 
 
 @dataclass(kw_only=True)
-class ControllerParams:
+class ControllerParams(Parameters):
     """The parameters of the systems, a field for each of them."""
 
     scan_assembler: ScanAssemblerParams = field(default_factory=ScanAssemblerParams)
@@ -136,29 +120,19 @@ class ControllerParams:
 
 
 @dataclass(kw_only=True)
-class SimulationParams:
+class SimulationParams(Parameters):
     """How the world is simulated."""
 
-    time_step: float = 0.0025
+    time_step: float = number(0.0025, "s", least=1e-5, most=0.1)
     """Step of the plant, s."""
-    max_time: float = 120.0
+    max_time: float = number(120.0, "s", above=0.0)
     """When the run is given up, s of simulated time."""
-    seed: int = 0
+    seed: int = number(0, least=0, most=LARGEST_SEED)
     """Seed of everything that is random."""
-
-    def validate(self) -> None:
-        """Checks every field.
-
-        Raises:
-            ValueError: "field: reason, got x" for the first field that is wrong.
-        """
-        require_positive("time_step", self.time_step, "s")
-        require_positive("max_time", self.max_time, "s")
-        require_at_least("seed", self.seed, 0)
 
 
 @dataclass(kw_only=True)
-class Scenario:
+class Scenario(Parameters):
     """A robot, what is around it and what it is to do."""
 
     name: str = ""
@@ -184,11 +158,12 @@ class Scenario:
         return replace(lidar, seed=lidar.seed + self.simulation.seed)
 
     def validate(self) -> None:
-        """Checks what concerns more than one part; each part checks itself.
+        """Checks every part, and what concerns more than one.
 
         Raises:
             ValueError: "field: reason, got x" for the first field that is wrong.
         """
+        super().validate()
         model, room, stairs = self.robot.model(), self.scene.room, self.scene.staircase
         start = upright_pose(self.robot.x, self.robot.y)
         p_RStart = room.X_WR().inverse().multiply(start).translation()
@@ -197,6 +172,10 @@ class Scenario:
                 "robot: must start inside the room, "
                 f"got x {self.robot.x:g} m, y {self.robot.y:g} m"
             )
+        try:
+            self.parameters.footstep_planner.validate(model.sole)
+        except ValueError as error:
+            raise ValueError(f"parameters.footstep_planner.{error}") from None
         if stairs is not None:
             self._check_width(stairs, model)
         elif self.task.kind == "stair_climbing":

@@ -9,7 +9,7 @@ import numpy as np
 from pydrake.common.value import AbstractValue
 from pydrake.systems.framework import BasicVector, Context, LeafSystem
 
-from models.validation import require_at_least, require_positive
+from models.validation import Parameters, number
 from systems.planning.decision_state import declare_decisions
 from systems.ports import eval_abstract, eval_vector, set_vector
 from systems.timing import timed
@@ -19,22 +19,13 @@ Activity: TypeAlias = Literal["settle", "scan", "move", "stand"]
 
 
 @dataclass(kw_only=True)
-class ExecutiveParams:
+class ExecutiveParams(Parameters):
     """When it decides."""
 
-    period: float = 0.025
+    period: float = number(0.025, "s", least=1e-3, most=10.0)
     """Between decisions, s."""
-    settle_time: float = 0.3
+    settle_time: float = number(0.3, "s", least=0.0)
     """Standing still before a scan, s."""
-
-    def validate(self) -> None:
-        """Checks every field.
-
-        Raises:
-            ValueError: "field: reason, got x" for the first field that is wrong.
-        """
-        require_positive("period", self.period, "s")
-        require_at_least("settle_time", self.settle_time, 0.0, "s")
 
 
 @dataclass(frozen=True, eq=False)

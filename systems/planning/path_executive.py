@@ -10,7 +10,7 @@ from pydrake.common.value import AbstractValue
 from pydrake.systems.framework import Context, LeafSystem
 
 from models.robot import Sole
-from models.validation import require_at_least, require_positive
+from models.validation import Parameters, number
 from systems.planning.decision_state import declare_decisions
 from systems.planning.foothold import sole_corners
 from systems.ports import eval_abstract, eval_vector
@@ -21,32 +21,20 @@ Activity: TypeAlias = Literal["look", "move", "stop", "stand"]
 
 
 @dataclass(kw_only=True)
-class PathExecutiveParams:
+class PathExecutiveParams(Parameters):
     """When it decides and what it takes for blocked."""
 
-    period: float = 0.025
+    period: float = number(0.025, "s", least=1e-3, most=10.0)
     """Between decisions, s."""
-    settle_time: float = 0.4
+    settle_time: float = number(0.4, "s", least=0.0)
     """Standing still before a look on which a path is planned, s."""
-    look_period: float = 0.5
+    look_period: float = number(0.5, "s", least=1e-3)
     """Between looks at the room while walking, s."""
-    body_radius: float = 0.22
+    body_radius: float = number(0.22, "m", least=0.0)
     """What the walking body takes around each sole, m: a box that comes nearer blocks
     the step. Less than what paths keep, so that the noise of a box's edge does not."""
-    most_plans: int = 20
+    most_plans: int = number(20, least=1)
     """After this many plans the task is given up."""
-
-    def validate(self) -> None:
-        """Checks every field.
-
-        Raises:
-            ValueError: "field: reason, got x" for the first field that is wrong.
-        """
-        for name in ("period", "look_period"):
-            require_positive(name, getattr(self, name))
-        for name in ("settle_time", "body_radius"):
-            require_at_least(name, getattr(self, name), 0.0)
-        require_at_least("most_plans", self.most_plans, 1)
 
 
 @dataclass(frozen=True, eq=False)

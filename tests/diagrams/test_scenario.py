@@ -124,6 +124,10 @@ def test_one_seed_rules_the_scanner() -> None:
         ("scene.boxes=[{size: [1]}]", "scene.boxes[0].size: must have 3 elements, got"),
         ("sensors.lidar.noise=-1", "sensors.lidar.noise: must be at least 0 m, got -1"),
         ("parameters.segmenter.voxel_size=0", "parameters.segmenter.voxel_size: must "),
+        (
+            "parameters.footstep_planner.stance_width=0.05",
+            "parameters.footstep_planner.stance_width: must lie between 0.114 m (two ",
+        ),
         ("robot.name=hrp4", "robot.name: must be one of jvrc1, got 'hrp4'"),
         ("robot.x=20", "robot: must start inside the room, got x 20 m, y 0 m"),
         (
@@ -135,9 +139,13 @@ def test_one_seed_rules_the_scanner() -> None:
             "task.mode: must be one of dynamic, quasi_static, got 'fast'",
         ),
         ("task.steps_between_scans=0", "task.steps_between_scans: must be at least 1"),
-        ("task.pushes=[{body: HEAD}]", "task.pushes[0].body: jvrc1 has no link 'HEAD'"),
+        (
+            "task.pushes=[{body: HEAD, force: [1, 0, 0]}]",
+            "task.pushes[0].body: jvrc1 has no link 'HEAD'",
+        ),
+        ("task.pushes=[{}]", "task.pushes[0].force: must not be zero, got [0.0, 0.0, "),
         ("task.pushes=[{force: [1]}]", "task.pushes[0].force: must have 3 elements, g"),
-        ("simulation.time_step=0", "simulation.time_step: must be positive, got 0 s"),
+        ("simulation.time_step=0", "simulation.time_step: must be at least 1e-05"),
         ("simulation.seed=-1", "simulation.seed: must be at least 0, got -1"),
     ],
 )

@@ -91,7 +91,7 @@ def test_floor_height_is_the_densest_level() -> None:
 
 def test_validation() -> None:
     """A field out of range is named."""
-    with pytest.raises(ValueError, match="tail: must lie"):
+    with pytest.raises(ValueError, match="tail: must be less than"):
         replace(ObstacleFinderParams(), tail=0.4).validate()
 
 

@@ -71,5 +71,5 @@ def test_empty_cloud_has_an_empty_segmentation() -> None:
 
 def test_bad_parameters_are_refused_at_once() -> None:
     """Where the system is made, not at its first cloud."""
-    with pytest.raises(ValueError, match="voxel_size: must be positive, got -1"):
+    with pytest.raises(ValueError, match="voxel_size: must be at least"):
         PlaneSegmenter(PlaneSegmenterParams(voxel_size=-1.0))

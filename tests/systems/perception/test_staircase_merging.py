@@ -188,5 +188,5 @@ def test_bad_parameters_are_named(field: str) -> None:
     """The error names the field."""
     params = StaircaseMapParams()
     setattr(params, field, -1.0)
-    with pytest.raises(ValueError, match=rf"^{field}: must be positive, got -1.0"):
+    with pytest.raises(ValueError, match=rf"^{field}: must be .*, got -1 "):
         params.validate()

@@ -167,7 +167,7 @@ def test_dynamic_maps_allow_higher_waists_than_quasi_static_ones() -> None:
 
 def test_validation() -> None:
     """A field out of range is named."""
-    with pytest.raises(ValueError, match="delta_ds: must lie in"):
+    with pytest.raises(ValueError, match="delta_ds: must be less than 1"):
         replace(FeasibilityParams(), delta_ds=1.5).validate()
 
 

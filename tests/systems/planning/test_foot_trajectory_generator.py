@@ -105,7 +105,7 @@ def test_a_shift_moves_the_way_to_the_rear() -> None:
 
 def test_validation() -> None:
     """A field out of range is named."""
-    with pytest.raises(ValueError, match="lifted: must lie"):
+    with pytest.raises(ValueError, match="lifted: must be less than lowering"):
         replace(FootTrajectoryParams(), lifted=0.8).validate()
     with pytest.raises(ValueError, match="profile: must be"):
         replace(FootTrajectoryParams(), profile="circle").validate()
