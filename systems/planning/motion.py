@@ -24,6 +24,7 @@ from systems.planning.step_timing import (
     stance_zmp,
     step_times,
     transfers,
+    zmp_weight,
 )
 from systems.planning.swing_trajectory import quintic, swing_trajectory
 from systems.planning.toe_off import heading, lift_heel, toe_off_pitch
@@ -104,7 +105,13 @@ def plan_motion(
     rate = np.gradient(height, params.period)
     acceleration = np.gradient(rate, params.period)
     factor = height_factor(height, zmp[:, 2], acceleration)
-    motion = generate_varying_height(zmp[:, :2], factor, preview, rest_state(com[:2]))
+    motion = generate_varying_height(
+        zmp[:, :2],
+        factor,
+        preview,
+        rest_state(com[:2]),
+        zmp_weight(time, end, params),
+    )
     zmp[:, :2] = motion.zmp
     path = np.column_stack([motion.com, height])
     poses, contacts, lengths = _feet(time, steps, feet, path, edges, params, robot)

@@ -156,6 +156,16 @@ def test_fta_keeps_the_margins_beyond_the_true_obstacle() -> None:
     assert 0.005 < narrow.gap < 0.03
 
 
+def test_the_com_sets_off_and_arrives_without_a_jump(motion: CrossingMotion) -> None:
+    """Of its ZMP by more than 5 mm in a tick, in the lead-in's first 3/4 and the end.
+
+    Where a foot lifts the waist takes off at once, and the ZMP with it.
+    """
+    jumps = np.abs(np.diff(motion.cart_zmp, axis=0)).max(axis=1)
+    assert jumps[:120].max() < 0.005
+    assert jumps[-120:].max() < 0.005
+
+
 def test_a_knee_that_folds_too_far_raises_the_waist() -> None:
     """The second repair: as far as the stance leg reaches."""
     free = planned(0.05, 0.20, CrossingParams(fold_margin=0.0))[0]
