@@ -48,12 +48,12 @@ def build_obstacle_crossing(
     Returns:
         The diagram, its default context where the robot starts.
     """
-    params = scenario.parameters
+    params = scenario.controllers()
     robot = ROBOTS[scenario.robot.name]
     builder = DiagramBuilder()
 
     station = add_station(
-        builder, scenario, robot, params.ik.period, FURNITURE, soles_allowed=False
+        builder, scenario, robot, params.control_period, FURNITURE, soles_allowed=False
     )
     lidar, assembler = add_lidar(builder, scenario, station)
     finder = add_system(

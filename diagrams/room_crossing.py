@@ -38,12 +38,12 @@ def build_room_crossing(
     Raises:
         EnvironmentFileError: the scenario's environment cannot be read.
     """
-    params = scenario.parameters
+    params = scenario.controllers()
     robot = ROBOTS[scenario.robot.name]
     builder = DiagramBuilder()
 
     station = add_station(
-        builder, scenario, robot, params.ik.period, FURNITURE, soles_allowed=False
+        builder, scenario, robot, params.control_period, FURNITURE, soles_allowed=False
     )
     frame, environment = add_perception(builder, scenario, station)
 

@@ -36,11 +36,11 @@ def build_stair_climbing(
     Returns:
         The diagram, its default context where the robot starts.
     """
-    params = scenario.parameters
+    params = scenario.controllers()
     robot = ROBOTS[scenario.robot.name]
     builder = DiagramBuilder()
 
-    station = add_station(builder, scenario, robot, params.ik.period)
+    station = add_station(builder, scenario, robot, params.control_period)
     lidar, assembler = add_lidar(builder, scenario, station)
 
     segmenter = add_system(builder, "plane_segmenter", PlaneSegmenter(params.segmenter))

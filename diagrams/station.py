@@ -226,7 +226,7 @@ def add_lidar(
         builder,
         "scan_assembler",
         ScanAssembler(
-            scenario.parameters.scan_assembler,
+            scenario.controllers().scan_assembler,
             beam_angles=params.angles(),
             mount_body=int(head),
             X_BM=X_HM,

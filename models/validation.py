@@ -11,11 +11,12 @@ Every message reads "field: reason, got x".
 import dataclasses
 import math
 import numbers
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeVar, cast
 
 T = TypeVar("T")
+P = TypeVar("P", bound="Parameters")
 
 LARGEST = {"m": 1e3, "s": 1e5, "rad": 2.0 * math.pi, "deg": 360.0, "m/s": 100.0}
 """By unit, what no quantity of a robot and its surroundings exceeds either way."""
@@ -24,8 +25,8 @@ LARGEST_OF_OTHERS = 1e6
 RIGHT_ANGLE = math.pi / 2.0
 """rad."""
 LARGEST_SEED = 2**31 - 1
-BOUNDS, CHOICES = "bounds", "choices"
-"""Under which keys a field's metadata holds what it may be."""
+BOUNDS, CHOICES, SHARED = "bounds", "choices", "shared"
+"""Keys of a field's metadata: what it may be, and which field it takes its value of."""
 
 
 @dataclass(frozen=True)
@@ -56,12 +57,12 @@ class Bounds:
         Raises:
             ValueError: it is no finite number within the bounds.
         """
-        kind = numbers.Integral if whole else numbers.Real
-        if isinstance(value, bool) or not isinstance(value, kind):
-            wanted = "a whole number" if whole else "a number"
-            raise ValueError(f"{field}: must be {wanted}, got {value!r}")
+        if isinstance(value, bool) or not isinstance(value, numbers.Real):
+            raise ValueError(f"{field}: must be a number, got {value!r}")
         if not math.isfinite(value):
             reason = "finite"
+        elif whole and not isinstance(value, numbers.Integral):
+            reason = "a whole number"
         elif not value > self.above:
             more = f"more than {self._shown(self.above)}"
             reason = more if self.above else "positive"
@@ -89,6 +90,7 @@ def number(
     most: float | None = None,
     length: int | None = None,
     fewest: int = 0,
+    shared: str = "",
 ) -> T:
     """Declares a number of a parameter class, or a list of numbers.
 
@@ -101,6 +103,8 @@ def number(
         most: it does not exceed this; `LARGEST` of its unit if None.
         length: of a list; None for any.
         fewest: a list has at least so many elements.
+        shared: the one field of a scenario that this and others take their value of,
+            its path there; see `share`. Empty where it is a field of its own.
 
     Returns:
         The dataclass field; to a type checker it is the default.
@@ -115,7 +119,7 @@ def number(
         length,
         fewest,
     )
-    metadata = {BOUNDS: bounds}
+    metadata = {BOUNDS: bounds, SHARED: shared}
     if isinstance(default, list):
         copied: Any = dataclasses.field(default_factory=default.copy, metadata=metadata)
     else:
@@ -158,6 +162,26 @@ class Parameters:
                     _check_part(f"{item.name}[{index}]", part)
             else:
                 _check_part(item.name, value)
+
+
+def share(params: P, values: Mapping[str, float]) -> P:
+    """Gives every shared number its value, in the parts of the parameters too.
+
+    Args:
+        params: not changed.
+        values: by `shared` path.
+
+    Returns:
+        A copy with the values.
+    """
+    changes: dict[str, Any] = {}
+    for item in dataclasses.fields(params):
+        value = getattr(params, item.name)
+        if item.metadata.get(SHARED):
+            changes[item.name] = values[item.metadata[SHARED]]
+        elif isinstance(value, Parameters):
+            changes[item.name] = share(value, values)
+    return dataclasses.replace(params, **changes)
 
 
 def _check_numbers(item: "dataclasses.Field[Any]", value: Any) -> None:

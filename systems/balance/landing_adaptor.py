@@ -22,7 +22,9 @@ _ROLL, _PITCH = 3, 4
 class LandingParams(Parameters):
     """When a foot counts as landed and how it looks for the ground."""
 
-    period: float = number(0.005, "s", least=1e-4, most=0.1)
+    period: float = number(
+        0.005, "s", least=1e-4, most=0.1, shared="parameters.control_period"
+    )
     """Of the controllers, s."""
     touch_force: float = number(15.0, "N", above=0.0)
     """Vertical force that counts as ground, N; a sensor's noise and the foot's own

@@ -17,7 +17,7 @@ from systems.ports import Vector
 class DistributionParams(Parameters):
     """Weights and limits of the quadratic programme."""
 
-    friction: float = number(0.6, above=0.0, most=10.0)
+    friction: float = number(0.6, above=0.0, most=10.0, shared="parameters.friction")
     """mu of the pyramid that the wrenches are kept in; below the ground's, so that the
     feet do not slide."""
     edge_margin: float = number(0.004, "m", least=0.0)

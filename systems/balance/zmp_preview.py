@@ -24,9 +24,13 @@ GRAVITY = 9.81
 class ZmpPreviewParams(Parameters):
     """Parameters of the preview controller; Kajita 2003 where not said otherwise."""
 
-    period: float = number(0.005, "s", least=1e-4, most=0.1)
+    period: float = number(
+        0.005, "s", least=1e-4, most=0.1, shared="parameters.control_period"
+    )
     """T: one tick, s; the paper's value, and the period of the servo loop."""
-    com_height: float = number(0.814, "m", least=0.3, most=3.0)
+    com_height: float = number(
+        0.814, "m", least=0.3, most=3.0, shared="parameters.com_height"
+    )
     """z_c: height of the CoM over the ZMP's plane, m; the paper's value."""
     preview_time: float = number(1.6, "s", above=0.0, most=10.0)
     """How far ahead the reference is used, s; the paper's value."""

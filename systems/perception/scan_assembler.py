@@ -25,7 +25,9 @@ class ScanAssemblerParams(Parameters):
     margin: float = number(0.03, "m", least=0.0, most=1.0)
     """How far the boxes about the robot's own bodies are inflated, m: six standard
     deviations of the scanner's noise."""
-    period: float = number(0.025, "s", least=1e-3, most=10.0)
+    period: float = number(
+        0.025, "s", least=1e-3, most=10.0, shared="sensors.lidar.line_period"
+    )
     """How often it looks for a new line, s; the scanner's line period."""
     offset: float = number(0.001, "s", above=0.0)
     """How long after each line it looks, s; the sensor's pose is taken then."""

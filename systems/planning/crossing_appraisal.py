@@ -122,7 +122,12 @@ def static_balance(
     looked = looked[:: max(1, round(TORQUE_TICK / course.crossing.sampling))]
     at = course.rows[looked]
     share, joint, row = worst_torque(
-        course.body, course.context, motion.q[looked], poses[at], contacts[at]
+        course.body,
+        course.context,
+        motion.q[looked],
+        poses[at],
+        contacts[at],
+        quasi.friction,
     )
     margin = least_margin(
         phases,

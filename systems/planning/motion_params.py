@@ -15,7 +15,9 @@ class MotionPlannerParams(Parameters):
     A step whose foot changes height by more than `climb_threshold` is a climbing step.
     """
 
-    period: float = number(0.005, "s", least=1e-4, most=0.1)
+    period: float = number(
+        0.005, "s", least=1e-4, most=0.1, shared="parameters.control_period"
+    )
     """Sampling of the plan, s; the controllers' period."""
     single_support: float = number(0.70, "s", least=0.05, most=60.0)
     """One foot in the air, level steps, s."""
@@ -31,7 +33,9 @@ class MotionPlannerParams(Parameters):
     """Standing before the first step while the weight shifts, s."""
     lead_out: float = number(0.9, "s", least=0.05, most=60.0)
     """Standing after the last step while the weight comes to the middle, s."""
-    com_height: float = number(0.85, "m", least=0.3, most=3.0)
+    com_height: float = number(
+        0.85, "m", least=0.3, most=3.0, shared="parameters.com_height"
+    )
     """CoM above the ground at mid-stance, m. Higher stretches the knees, lower loads
     them: at 0.80 m level walking needs 100 Nm at the knee, at 0.85 m 60 Nm."""
     swing: SwingParams = field(

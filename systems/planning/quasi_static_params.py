@@ -22,7 +22,7 @@ class QuasiStaticParams(Parameters):
     """Standing still between two segments, s."""
     margin: float = number(0.02, "m", least=0.0)
     """Both ends of a CoM line lie at least this far inside the segment's polygon, m."""
-    friction: float = number(0.6, above=0.0, most=10.0)
+    friction: float = number(0.6, above=0.0, most=10.0, shared="parameters.friction")
     """mu of the pyramids that the polygons are computed with; below the ground's."""
     forward: float = number(0.035, "m", least=0.0)
     """CoM over the foot it stands on, ahead of the ankle, m."""

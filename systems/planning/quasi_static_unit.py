@@ -60,7 +60,7 @@ class QuasiStaticCrossingParams(Parameters):
     """How far the knees keep off their straightest, rad: they move slowly."""
     sampling: float = number(0.02, "s", least=1e-3, most=1.0)
     """Of the whole-body motion that is planned, s."""
-    friction: float = number(0.6, above=0.0, most=10.0)
+    friction: float = number(0.6, above=0.0, most=10.0, shared="parameters.friction")
     """mu that the static-stability polygons are computed with."""
     torque_share: float = number(0.95, above=0.0, most=10.0)
     """Share of a joint's effort limit that standing may take."""

@@ -24,7 +24,9 @@ from systems.values import FEET
 class IkParams(Parameters):
     """Weights and gains of the QP."""
 
-    period: float = number(0.005, "s", least=1e-4, most=0.1)
+    period: float = number(
+        0.005, "s", least=1e-4, most=0.1, shared="parameters.control_period"
+    )
     """Between ticks, s."""
     com_weight: float = number(1.0, above=0.0)
     """w_CoM of the horizontal CoM velocity error, s^2/m^2 (stair paper, Sec. 6.1)."""
