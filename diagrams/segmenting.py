@@ -11,6 +11,8 @@ from time import perf_counter
 import numpy as np
 from matplotlib.figure import Figure
 
+from models.jvrc1 import JVRC1
+from models.robot import Sole
 from systems.perception.cloud_files import read_cloud
 from systems.perception.normals import gravity_aligned_rotation
 from systems.perception.plane_segmentation import segment_planes
@@ -44,6 +46,7 @@ def segment_file(
     gravity: Vector,
     out: Path,
     params: PlaneSegmenterParams | None = None,
+    sole: Sole = JVRC1.sole,
 ) -> SegmentedFile:
     """Segments the cloud in a file and writes `planes.json` and `planes.png`.
 
@@ -54,6 +57,7 @@ def segment_file(
         gravity: gravity in the cloud's frame, (3,), any length: it points down.
         out: folder to write to; it is made where it is missing.
         params: parameters; None for the paper's.
+        sole: of the robot; what is smaller is no plane to stand on.
 
     Raises:
         CloudFileError: the file is no cloud.
@@ -66,7 +70,7 @@ def segment_file(
     start = perf_counter()
     points = read_cloud(cloud)
     read = ("read", (perf_counter() - start) * 1e3)
-    found, _ = segment_planes(points, gravity, params)
+    found, _ = segment_planes(points, gravity, params, sole)
     segmentation = PlaneSegmentation(
         planes=found.planes,
         staircase=found.staircase,

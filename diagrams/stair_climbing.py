@@ -43,7 +43,9 @@ def build_stair_climbing(
     station = add_station(builder, scenario, robot, params.control_period)
     lidar, assembler = add_lidar(builder, scenario, station)
 
-    segmenter = add_system(builder, "plane_segmenter", PlaneSegmenter(params.segmenter))
+    segmenter = add_system(
+        builder, "plane_segmenter", PlaneSegmenter(robot.sole, params.segmenter)
+    )
     down: Vector = np.array([0.0, 0.0, -1.0])
     gravity = add_system(builder, "gravity", ConstantVectorSource(down))
     builder.Connect(assembler.GetOutputPort("cloud"), segmenter.GetInputPort("cloud"))

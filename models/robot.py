@@ -29,6 +29,11 @@ class Sole:
         """Heel edge to toe edge, m."""
         return self.heel + self.toe
 
+    @property
+    def area(self) -> float:
+        """m^2."""
+        return 2.0 * self.half_width * self.length
+
 
 @dataclass(frozen=True)
 class JointGains:

@@ -2,8 +2,6 @@
 
 from dataclasses import dataclass, field
 
-import numpy as np
-
 from models.validation import LARGEST_SEED, RIGHT_ANGLE, Parameters, choice, number
 from systems.perception.stair_chain import StairLimits
 
@@ -44,10 +42,6 @@ class PlaneSegmenterParams(Parameters):
     """Most that an inlier of RANSAC lies off its plane, m: three times the noise."""
     max_dz: float = number(0.03, "m", above=0.0)
     """epsilon, largest vertical scale of a tread's segment, m (Sec. 4.3)."""
-    foot_length: float = number(0.225, "m", above=0.0)
-    """Length of the sole, m: Filter 3 drops what is smaller than the sole."""
-    foot_width: float = number(0.084, "m", above=0.0)
-    """Width of the sole, m."""
     stairs: StairLimits = field(default_factory=StairLimits)
     """What passes for a staircase."""
     seed: int = number(0, least=0, most=LARGEST_SEED)
@@ -67,8 +61,3 @@ class PlaneSegmenterParams(Parameters):
                 "seed_resolution: must be at least two voxels, got "
                 f"{self.seed_resolution} m with voxels of {self.voxel_size} m"
             )
-
-    def min_voxels(self) -> int:
-        """Voxels that a sole covers."""
-        area = self.foot_length * self.foot_width
-        return int(np.ceil(area / self.voxel_size**2))

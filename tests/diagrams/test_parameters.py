@@ -102,7 +102,7 @@ BUILT: dict[type[Parameters], Callable[[Any], object]] = {
     ObstacleClustererParams: ObstacleClusterer,
     ObstacleFinderParams: ObstacleFinder,
     PathPlannerParams: PathPlanner,
-    PlaneSegmenterParams: PlaneSegmenter,
+    PlaneSegmenterParams: lambda p: PlaneSegmenter(JVRC1.sole, p),
     RoomParams: lambda p: p.solids(),
     ScanAssemblerParams: lambda p: ScanAssembler(
         p, beam_angles=np.zeros(1), mount_body=0, X_BM=RigidTransform()

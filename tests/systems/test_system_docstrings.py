@@ -135,7 +135,7 @@ FACTORIES: dict[type[LeafSystem], Callable[[], LeafSystem]] = {
         FootstepPlannerParams(), JVRC1.sole
     ),
     PathPlanner: PathPlanner,
-    PlaneSegmenter: PlaneSegmenter,
+    PlaneSegmenter: lambda: PlaneSegmenter(JVRC1.sole),
     Pusher: lambda: Pusher([]),
     ScanAssembler: lambda: ScanAssembler(
         ScanAssemblerParams(),
