@@ -107,7 +107,7 @@ class ControllerParams(Parameters):
     footstep_planner: FootstepPlannerParams = field(
         default_factory=FootstepPlannerParams
     )
-    """Where the feet go; `task.steps_between_scans` takes precedence over its own."""
+    """Where the feet go."""
     motion_planner: MotionPlannerParams = field(default_factory=MotionPlannerParams)
     """When and how they go there."""
     zmp_preview: ZmpPreviewParams = field(
@@ -179,7 +179,10 @@ class Scenario(Parameters):
         return replace(lidar, seed=lidar.seed + self.simulation.seed)
 
     def controllers(self) -> ControllerParams:
-        """The parameters of the systems, those that they share in each of them."""
+        """The parameters of the systems, what they share written into each of them.
+
+        What a section itself holds for a number that is shared does not count.
+        """
         params, lidar = self.parameters, self.sensors.lidar
         return share(
             params,
@@ -188,6 +191,7 @@ class Scenario(Parameters):
                 "parameters.friction": params.friction,
                 "parameters.com_height": params.com_height,
                 "sensors.lidar.line_period": lidar.line_period,
+                "task.steps_between_scans": self.task.steps_between_scans,
             },
         )
 

@@ -1,7 +1,5 @@
 """Climb a staircase that the robot has scanned (stair paper, closed loop)."""
 
-import dataclasses
-
 import numpy as np
 from pydrake.geometry import Meshcat
 from pydrake.systems.framework import DiagramBuilder
@@ -63,13 +61,7 @@ def build_stair_climbing(
     footsteps = add_system(
         builder,
         "footstep_planner",
-        FootstepPlanner(
-            dataclasses.replace(
-                params.footstep_planner,
-                steps_between_scans=scenario.task.steps_between_scans,
-            ),
-            robot.sole,
-        ),
+        FootstepPlanner(params.footstep_planner, robot.sole),
     )
     ik = WholeBodyIk(station.model, robot, params.ik)
     motion = add_system(

@@ -45,7 +45,9 @@ class FootstepPlannerParams(Parameters):
     """The approach ends at most this far from floor that was seen, m: a robot does not
     see the floor under its own feet and close to the first riser."""
 
-    steps_between_scans: int = number(2, least=1, most=1000)
+    steps_between_scans: int = number(
+        2, least=1, most=1000, shared="task.steps_between_scans"
+    )
     """Treads climbed before the plan ends for a new scan: the paper's Sec. 6.4 repeats
     one pair of consecutive steps."""
     max_climb_length: float = number(0.36, "m", above=0.0)

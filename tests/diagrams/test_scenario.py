@@ -109,6 +109,7 @@ def test_what_systems_share_is_one_field() -> None:
             "parameters.friction=0.3",
             "parameters.com_height=0.8",
             "sensors.lidar.line_period=0.05",
+            "task.steps_between_scans=3",
         ],
     )
     params = scenario.controllers()
@@ -125,6 +126,7 @@ def test_what_systems_share_is_one_field() -> None:
     )
     heights = (params.motion_planner.com_height, params.zmp_preview.com_height)
     assert heights == (0.8, 0.8)
+    assert params.footstep_planner.steps_between_scans == 3
     assert params.scan_assembler.period == scenario.lidar().line_period == 0.05
 
 
@@ -141,6 +143,10 @@ def test_what_systems_share_is_one_field() -> None:
         ("parameters.motion_planner.quasi_static.friction", "parameters.friction"),
         ("parameters.crossing.quasi_static.friction", "parameters.friction"),
         ("parameters.scan_assembler.period", "sensors.lidar.line_period"),
+        (
+            "parameters.footstep_planner.steps_between_scans",
+            "task.steps_between_scans",
+        ),
     ],
 )
 def test_a_second_field_for_the_same_is_refused(
