@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 
 from models.jvrc1 import JVRC1
-from models.validation import Parameters, choice, number
+from models.validation import LARGEST, Parameters, choice, number
 
 TASKS = ("stair_climbing", "room_crossing", "obstacle_crossing")
 """What a robot may be asked to do."""
@@ -56,3 +56,15 @@ class TaskParams(Parameters):
     "room_crossing" only."""
     pushes: list[PushParams] = field(default_factory=list)
     """Pushes on the way."""
+
+    def validate(self) -> None:
+        """Checks every field, and the heading of the goal.
+
+        Raises:
+            ValueError: "field: reason, got x" for the first field that is wrong.
+        """
+        super().validate()
+        if abs(self.goal[2]) > LARGEST["rad"]:
+            raise ValueError(
+                f"goal[2]: must be at most a turn, got {self.goal[2]:g} rad"
+            )

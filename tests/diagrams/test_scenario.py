@@ -202,6 +202,7 @@ def test_one_seed_rules_the_scanner() -> None:
             "task.mode=fast",
             "task.mode: must be one of dynamic, quasi_static, got 'fast'",
         ),
+        ("task.goal=[1, 0, 7]", "task.goal[2]: must be at most a turn, got 7 rad"),
         ("task.steps_between_scans=0", "task.steps_between_scans: must be at least 1"),
         (
             "task.pushes=[{body: HEAD, force: [1, 0, 0]}]",
