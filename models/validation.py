@@ -164,6 +164,16 @@ class Parameters:
                 _check_part(item.name, value)
 
 
+def require_at_least(field: str, value: float, least: float, unit: str = "") -> None:
+    """Checks an argument that is no field: a finite number, no less than `least`.
+
+    Raises:
+        ValueError: "field: reason, got x".
+    """
+    inf = math.inf
+    Bounds(unit, -inf, least, inf, inf, None, 0).check(field, value, False)
+
+
 def share(params: P, values: Mapping[str, float]) -> P:
     """Gives every shared number its value, in the parts of the parameters too.
 

@@ -176,7 +176,7 @@ def fit_planes(
         voxels.points,
         of,
         tolerance=params.plane_tolerance,
-        min_inliers=int(np.ceil(sole.area / params.voxel_size**2)),
+        min_inliers=params.min_voxels(sole),
         rng=np.random.default_rng(params.seed),
     )
     if not planes:

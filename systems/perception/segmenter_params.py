@@ -2,6 +2,9 @@
 
 from dataclasses import dataclass, field
 
+import numpy as np
+
+from models.robot import Sole
 from models.validation import LARGEST_SEED, RIGHT_ANGLE, Parameters, choice, number
 from systems.perception.stair_chain import StairLimits
 
@@ -61,3 +64,7 @@ class PlaneSegmenterParams(Parameters):
                 "seed_resolution: must be at least two voxels, got "
                 f"{self.seed_resolution} m with voxels of {self.voxel_size} m"
             )
+
+    def min_voxels(self, sole: Sole) -> int:
+        """Voxels that a sole covers."""
+        return int(np.ceil(sole.area / self.voxel_size**2))

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import pytest
 
-from models.validation import Parameters, choice, number, share
+from models.validation import Parameters, choice, number, require_at_least, share
 
 
 @dataclass(kw_only=True)
@@ -66,3 +66,11 @@ def test_a_shared_number_gets_its_value_in_the_parts() -> None:
     given = share(cart, {"size": 0.5})
     assert (given.wheel.radius, given.wheel.spokes) == (0.5, 12)
     assert cart.wheel.radius == 0.3
+
+
+def test_an_argument_is_refused_alike() -> None:
+    """By its name, with its unit."""
+    require_at_least("latency", 0.0, 0.0, "s")
+    for value in (-0.1, math.nan, math.inf):
+        with pytest.raises(ValueError, match=r"^latency: must be .*, got .* s$"):
+            require_at_least("latency", value, 0.0, "s")
