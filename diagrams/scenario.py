@@ -202,7 +202,7 @@ class Scenario(Parameters):
             ValueError: "field: reason, got x" for the first field that is wrong.
         """
         super().validate()
-        self._check_periods()
+        self._check_shared()
         model, room, stairs = self.robot.model(), self.scene.room, self.scene.staircase
         start = upright_pose(self.robot.x, self.robot.y)
         p_RStart = room.X_WR().inverse().multiply(start).translation()
@@ -237,7 +237,7 @@ class Scenario(Parameters):
                     f"{push.body!r}{hint}"
                 )
 
-    def _check_periods(self) -> None:
+    def _check_shared(self) -> None:
         tick, crossing = self.parameters.control_period, self.parameters.crossing
         for name, value, unit, step in (
             ("control_period", tick, "simulation.time_step", self.simulation.time_step),
