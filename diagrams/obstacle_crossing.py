@@ -89,7 +89,13 @@ def build_obstacle_crossing(
     executive = add_system(
         builder,
         "executive",
-        Executive(params.executive, stand.plan, params.thinking.crossing_planning),
+        Executive(
+            params.executive,
+            stand.plan,
+            params.thinking.quasi_static_crossing_planning
+            if scenario.task.mode == "quasi_static"
+            else params.thinking.crossing_planning,
+        ),
     )
     builder.Connect(finder.GetOutputPort("sweep"), executive.GetInputPort("sweep"))
     builder.Connect(executive.GetOutputPort("scan"), lidar.GetInputPort("enable"))

@@ -104,7 +104,13 @@ def build_stair_climbing(
     executive = add_system(
         builder,
         "executive",
-        Executive(params.executive, stand.plan, params.thinking.climb_planning),
+        Executive(
+            params.executive,
+            stand.plan,
+            params.thinking.quasi_static_climb_planning
+            if scenario.task.mode == "quasi_static"
+            else params.thinking.climb_planning,
+        ),
     )
     builder.Connect(staircase.GetOutputPort("sweep"), executive.GetInputPort("sweep"))
     builder.Connect(executive.GetOutputPort("scan"), lidar.GetInputPort("enable"))

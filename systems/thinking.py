@@ -22,19 +22,23 @@ class ThinkingParams:
     here and, with the machine that it measured on, to `thinking_time.md` beside it.
     """
 
-    segmentation: float = 0.3
+    segmentation: float = 0.49
     """From a finished sweep to the staircase."""
-    obstacle_finding: float = 0.2
+    obstacle_finding: float = 0.31
     """From a finished sweep to the obstacles on the floor."""
-    room_perception: float = 0.2
+    room_perception: float = 0.09
     """From a frame of the ceiling camera to floor and boxes."""
-    climb_planning: float = 0.5
+    climb_planning: float = 0.47
     """Footsteps on a staircase and the motion along them."""
-    crossing_planning: float = 0.5
+    quasi_static_climb_planning: float = 4.11
+    """The same where the motion is to be quasi-static."""
+    crossing_planning: float = 0.27
     """Footsteps over obstacles and the motion along them."""
-    room_planning: float = 0.5
+    quasi_static_crossing_planning: float = 0.21
+    """The same where the motion is to be quasi-static."""
+    room_planning: float = 0.04
     """A path through a room, the footsteps along it and their motion."""
-    stopping: float = 0.05
+    stopping: float = 0.03
     """A motion that ends a walk early."""
 
     def validate(self) -> None:
