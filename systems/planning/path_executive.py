@@ -266,7 +266,7 @@ class PathExecutive(LeafSystem):
         sole: Sole,
         stand: MotionPlan,
         stop: Callable[[MotionPlan, float], MotionPlan | None],
-        thinking: ThinkingParams,
+        thinking: ThinkingParams | None = None,
     ) -> None:
         """Declares ports and the update.
 
@@ -275,16 +275,16 @@ class PathExecutive(LeafSystem):
             sole: of both feet.
             stand: the plan of the default context, which stands.
             stop: cuts a plan short from a time on; None where it ends as soon.
-            thinking: how long perception and planning take.
+            thinking: how long perception and planning take; None for the defaults.
 
         Raises:
             ValueError: a parameter is out of range.
         """
         super().__init__()
         params.validate()
-        thinking.validate()
         self._params, self._sole, self._stop = params, sole, stop
-        self._thinking = thinking
+        self._thinking = thinking or ThinkingParams()
+        self._thinking.validate()
         self._frame = self.DeclareVectorInputPort("frame", 1)
         self._environment = self.DeclareAbstractInputPort(
             "environment", AbstractValue.Make(Environment())
