@@ -116,15 +116,18 @@ def test_thinking_takes_its_time(climb: Run) -> None:
 def test_a_plan_still_fits_when_it_is_there(climb: Run) -> None:
     """Nothing that it begins with has moved since it was begun."""
     status = climb.values("executive.status")
+    plans = 0
     for (begun, value), (there, after) in pairwise(status):
         if (value["activity"], after["activity"]) != ("plan", "move"):
             continue
+        plans += 1
         for name in ("feet.wanted", "reference.com"):
             signal = climb.signals[name]
             time = signal["time"]
             thinking = signal[(time > begun) & (time < there - 0.03)].to_numpy()[:, 1:4]
             assert len(thinking) > 10
             assert np.ptp(thinking, axis=0).max() < 1e-6
+    assert plans >= 2
 
 
 def test_signals_open_in_pandas(climb: Run) -> None:
