@@ -35,7 +35,7 @@ def room_perception(
     """How perception did in a room; None where nothing was seen.
 
     Args:
-        environments: when, s, the room was looked at, and what was seen.
+        environments: when, s, what was seen was known, and what was seen.
         scene: what truly stood there.
         ms_per_frame: see `stage_ms`.
 
@@ -50,7 +50,8 @@ def room_perception(
         return None
     errors, unseen = [], 0
     for time, environment in environments:
-        for box in standing_boxes(scene, time):
+        sensed_at = environment.sensed_at
+        for box in standing_boxes(scene, time if sensed_at is None else sensed_at):
             error = box_error(box, environment.boxes)
             if error is None:
                 unseen += 1

@@ -46,6 +46,7 @@ from systems.planning.path_executive import PathExecutiveParams
 from systems.planning.path_params import PathPlannerParams
 from systems.sensing.depth_camera import DepthCameraParams
 from systems.sensing.tilting_lidar import TiltingLidarParams
+from systems.thinking import ThinkingParams
 from systems.tracking.whole_body_ik import IkParams
 
 ROBOTS: dict[str, RobotModel] = {"jvrc1": JVRC1}
@@ -138,6 +139,8 @@ class ControllerParams(Parameters):
     """From the cloud to what lies in the way."""
     crossing: CrossingParams = field(default_factory=CrossingParams)
     """How that is stepped over."""
+    thinking: ThinkingParams = field(default_factory=ThinkingParams)
+    """How long perception and planning take."""
 
 
 @dataclass(kw_only=True)

@@ -52,7 +52,11 @@ def build_stair_climbing(
         lidar.GetOutputPort("viewpoint"), segmenter.GetInputPort("viewpoint")
     )
 
-    staircase = add_system(builder, "staircase_map", StaircaseMap(params.staircase_map))
+    staircase = add_system(
+        builder,
+        "staircase_map",
+        StaircaseMap(params.staircase_map, params.thinking.segmentation),
+    )
     builder.Connect(
         segmenter.GetOutputPort("segmentation"), staircase.GetInputPort("segmentation")
     )
@@ -92,7 +96,15 @@ def build_stair_climbing(
 
     stand = initial_stand(scenario, station)
     executive = add_system(
-        builder, "executive", Executive(params.executive, stand.plan)
+        builder,
+        "executive",
+        Executive(
+            params.executive,
+            stand.plan,
+            params.thinking.quasi_static_climb_planning
+            if scenario.task.mode == "quasi_static"
+            else params.thinking.climb_planning,
+        ),
     )
     builder.Connect(staircase.GetOutputPort("sweep"), executive.GetInputPort("sweep"))
     builder.Connect(executive.GetOutputPort("scan"), lidar.GetInputPort("enable"))
