@@ -169,6 +169,13 @@ def test_compressed_sizes_are_claims(plain: int, packed: int, tmp_path: Path) ->
         read(data, tmp_path)
 
 
+def test_compressed_data_is_that_of_the_points(tmp_path: Path) -> None:
+    """Data of more points than the header has is that of another cloud."""
+    data = pcd(xyz(POINTS), "binary_compressed", WIDTH=9, POINTS=9)
+    with pytest.raises(ValueError, match="promises 108 bytes, its data 120"):
+        read(data, tmp_path)
+
+
 @pytest.mark.parametrize("encoding", ENCODINGS)
 def test_a_cut_file_is_refused(encoding: str, tmp_path: Path) -> None:
     """Wherever it is cut, but for the last line break of text."""
@@ -189,7 +196,7 @@ def test_a_cut_file_is_refused(encoding: str, tmp_path: Path) -> None:
         ({"TYPE": "F F G"}, "makes no sense"),
         ({"SIZE": "4 4 3"}, "makes no sense"),
         ({"SIZE": "4 four 4"}, "makes no sense"),
-        ({"COUNT": "1 1 4000000000"}, "makes no sense"),
+        ({"COUNT": "1 1 5000"}, "makes no sense"),
         ({"COUNT": "1 1 2"}, "more than one x, y or z"),
         ({"COUNT": "1 1 -1"}, "makes no sense"),
         ({"POINTS": -1}, "makes no sense"),

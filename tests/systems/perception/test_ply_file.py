@@ -134,6 +134,7 @@ def test_a_cut_file_is_refused(format_: str, tmp_path: Path) -> None:
         (b"vertex 10", b"vertex ten", "element vertex ten"),
         (b"vertex 10", b"vertex -1", "element vertex -1"),
         (b"255 -1.0 ", b"255 -1,0 ", "damaged"),
+        (b" -1.0 -0.875 -0.75\n", b" -1.0 -0.875 -0,75\n", "damaged"),
         (b"255 -1.0 ", b"255 one ", "damaged"),
         (b"255 -1.0 ", b"255 ", "damaged"),
     ],
