@@ -45,7 +45,7 @@ def read_ply(path: Path) -> Vector:
         file.seek(0)
         try:
             with warnings.catch_warnings():
-                # NumPy only warns of text that is no number.
+                # NumPy before 2.3 only warns of text that is no number.
                 warnings.simplefilter("error")
                 found = load_ply(file, skip_materials=True)
             vertices = np.asarray(found["vertices"], dtype=np.float64)

@@ -94,6 +94,37 @@ def test_contacts_and_references_are_those_of_the_plan(stood) -> None:
         )
 
 
+@pytest.mark.parametrize(
+    ("port", "system", "target"),
+    [
+        ("contacts", "stabilizer", "contacts"),
+        ("contacts", "ik_tracker", "contacts"),
+        ("contacts", "static_stability", "contacts"),
+        ("foot_references", "stabilizer", "foot_references"),
+        ("foot_references", "ik_tracker", "foot_references"),
+    ],
+)
+def test_balance_and_tracking_go_by_the_feet_that_have_landed(
+    stood, port: str, system: str, target: str
+) -> None:
+    """Not by the plan's, from which they differ about a touch-down."""
+    task, root = stood
+    root = root.Clone()
+    landing = task.diagram.GetSubsystemByName("landing_adaptor")
+    context = landing.GetMyMutableContextFromRoot(root)
+    state = context.get_discrete_state(0).value()
+    context.SetDiscreteState(0, state - 0.25)
+    adapted = eval_vector(landing.GetOutputPort(port), context)
+    player = task.diagram.GetSubsystemByName("motion_player")
+    planned = eval_vector(player.GetOutputPort(port), player.GetMyContextFromRoot(root))
+    assert (np.abs(adapted - planned) > 0.1).all()
+    subsystem = task.diagram.GetSubsystemByName(system)
+    seen = eval_vector(
+        subsystem.GetInputPort(target), subsystem.GetMyContextFromRoot(root)
+    )
+    np.testing.assert_array_equal(seen, adapted)
+
+
 def test_controllers_share_their_period(stood) -> None:
     """Every fast loop ticks at 5 ms; only events ask for abstract state."""
     task, _ = stood

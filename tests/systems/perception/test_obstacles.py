@@ -67,6 +67,33 @@ def test_size_place_and_yaw(yaw: float, height: float) -> None:
     assert found.length == pytest.approx(1.0, abs=0.05)
 
 
+@pytest.mark.parametrize("width", [0.05, 0.1, 0.2])
+def test_no_obstacle_is_seen_narrower_than_it_is(width: float) -> None:
+    """Its back edge lies up to a scan line beyond the last points: that is added."""
+    cloud = _cloud([(1.2, 0.1, 0.2, width, 1.0, 0.15)])
+    (found,) = find_obstacles(cloud, EYES, ObstacleFinderParams()).obstacles
+    ahead = np.array([np.cos(0.2), np.sin(0.2)])
+    back = found.center @ ahead + 0.5 * found.width
+    true = np.array([1.2, 0.1]) @ ahead + 0.5 * width
+    assert true <= back < true + 0.01
+
+
+def test_the_allowance_moves_the_back_alone() -> None:
+    """By as much as it is; front, height and length stay."""
+    cloud = _cloud([(1.2, 0.1, 0.2, 0.05, 1.0, 0.15)])
+    bare, allowed = (
+        find_obstacles(
+            cloud, EYES, replace(ObstacleFinderParams(), back_allowance=allowance)
+        ).obstacles[0]
+        for allowance in (0.0, 0.02)
+    )
+    ahead = np.array([np.cos(bare.yaw), np.sin(bare.yaw)])
+    assert allowed.width - bare.width == pytest.approx(0.02)
+    np.testing.assert_allclose(allowed.center - bare.center, 0.01 * ahead, atol=1e-12)
+    assert (allowed.yaw, allowed.height) == (bare.yaw, bare.height)
+    assert allowed.length == pytest.approx(bare.length)
+
+
 def test_two_in_a_row_are_two_nearest_first() -> None:
     """60 cm apart."""
     boxes = [(1.7, 0.0, 0.0, 0.05, 1.0, 0.15), (1.1, 0.0, 0.0, 0.05, 1.0, 0.15)]

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from systems.planning import feasibility_unit as unit
-from systems.planning.feasibility_maps import feasibility_maps
+from systems.planning.feasibility_maps import SHARES, feasibility_maps
 from systems.planning.feasibility_unit import (
     Checked,
     FeasibilityParams,
@@ -44,6 +44,40 @@ def test_the_key_configuration_meets_its_constraints(height: float) -> None:
     assert (checked.gap > 0.0).all()
     # Feet and margins fit exactly: the search begins with the least step.
     assert key.X_ads >= leg.outline.toe + leg.outline.heel + inflated.width - 1e-9
+
+
+@pytest.mark.parametrize("delta_ds", [0.4, 0.55])
+def test_the_waist_is_at_its_share_of_the_step(delta_ds: float) -> None:
+    """Eq. 22, X_hds = delta_DS X_ads, from the rear ankle; also off the middle."""
+    section, leg = Section(0.05, 0.1), body().leg
+    params = replace(FeasibilityParams(), delta_ds=delta_ds, waist_travel=0.0)
+    key = feasibility_unit(section, WAIST, leg, params).key
+    assert key is not None
+    assert key.X_hds == pytest.approx(delta_ds * key.X_ads)
+    X, Z = np.array([0.44]), np.arange(0.60, 0.86, 0.01)
+    maps = feasibility_maps(section, leg, X, Z, delta_ds)
+    at_share = [
+        any(
+            (found.reached[0] > 0.5)
+            and (found.limits[0] <= 0.0).all()
+            and found.gap[0] > 0.0
+            for slack in SHARES
+            for found in (
+                check_double_support(
+                    section,
+                    X,
+                    delta_ds * X,
+                    np.array([z]),
+                    leg.outline.toe
+                    + slack * (X - leg.outline.toe - leg.outline.heel - 0.05),
+                    leg,
+                ),
+            )
+        )
+        for z in Z
+    ]
+    assert 0 < sum(at_share) < len(Z)
+    np.testing.assert_array_equal(maps.dynamic[:, 0], at_share)
 
 
 def test_higher_obstacles_want_longer_steps_or_lower_waists() -> None:
