@@ -9,6 +9,7 @@ from systems.perception.obstacles import (
     ObstacleFinderParams,
     find_obstacles,
     floor_height,
+    low_patches,
 )
 from systems.ports import Vector
 
@@ -133,6 +134,28 @@ def test_a_slat_lower_than_the_noise_is_seen(height: float) -> None:
     assert found.width == pytest.approx(0.05, abs=0.03)
     assert found.center == pytest.approx([1.2, 0.1], abs=0.02)
     assert found.length == pytest.approx(1.0, abs=0.08)
+
+
+@pytest.mark.parametrize("count", [4, 25, 100])
+def test_a_patch_is_raised_by_five_deviations_of_its_mean(count: int) -> None:
+    """Which falls with the root of its points: a little less is the floor's noise."""
+    params = replace(ObstacleFinderParams(), low_height=1e-6)
+    plan = np.random.default_rng(0).uniform(0.0, 0.02, (count, 2))
+    points = np.column_stack([plan, np.zeros(count)])
+    least = 5.0 * params.deviation / np.sqrt(count)
+    for share, raised in ((0.95, False), (1.05, True)):
+        height = np.full(count, share * least)
+        wide = replace(params, min_height=1.0)
+        assert (low_patches(points, height, wide) == raised).all()
+
+
+@pytest.mark.parametrize("tail", [0.0, 0.02, 0.1])
+def test_the_length_does_not_depend_on_the_tail(tail: float) -> None:
+    """What the ends that are left out would span is added."""
+    params = replace(ObstacleFinderParams(), tail=tail)
+    cloud = _cloud([(1.2, 0.1, 0.2, 0.05, 1.0, 0.15)], noise=0.001)
+    (found,) = find_obstacles(cloud, EYES, params).obstacles
+    assert found.length == pytest.approx(1.0, abs=0.015)
 
 
 def test_the_noise_of_the_floor_is_no_slat() -> None:

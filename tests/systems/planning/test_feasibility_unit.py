@@ -54,30 +54,31 @@ def test_the_waist_is_at_its_share_of_the_step(delta_ds: float) -> None:
     key = feasibility_unit(section, WAIST, leg, params).key
     assert key is not None
     assert key.X_hds == pytest.approx(delta_ds * key.X_ads)
-    X, Z = np.array([0.44]), np.arange(0.60, 0.86, 0.01)
-    maps = feasibility_maps(section, leg, X, Z, delta_ds)
-    at_share = [
-        any(
-            (found.reached[0] > 0.5)
-            and (found.limits[0] <= 0.0).all()
-            and found.gap[0] > 0.0
-            for slack in SHARES
-            for found in (
-                check_double_support(
-                    section,
-                    X,
-                    delta_ds * X,
-                    np.array([z]),
-                    leg.outline.toe
-                    + slack * (X - leg.outline.toe - leg.outline.heel - 0.05),
-                    leg,
-                ),
-            )
+
+
+@pytest.mark.parametrize("delta_ds", [0.3, 0.5, 0.7])
+def test_the_dynamic_map_has_the_waist_at_its_share(delta_ds: float) -> None:
+    """Eq. 22 again: each cell by itself, from bent to stretched legs."""
+    section, leg = Section(0.05, 0.1), body().leg
+    feet = leg.outline.toe + leg.outline.heel + section.width
+    X, Z = np.array([0.40, 0.44]), np.arange(0.56, 0.90, 0.01)
+
+    def stands(x: float, z: float) -> bool:
+        """Whether the obstacle may lie somewhere between the feet."""
+        found = check_double_support(
+            section,
+            np.full(len(SHARES), x),
+            np.full(len(SHARES), delta_ds * x),
+            np.full(len(SHARES), z),
+            leg.outline.toe + np.array(SHARES) * (x - feet),
+            leg,
         )
-        for z in Z
-    ]
-    assert 0 < sum(at_share) < len(Z)
-    np.testing.assert_array_equal(maps.dynamic[:, 0], at_share)
+        return bool((found.within(0.0) & (found.gap > 0.0)).any())
+
+    wanted = [[stands(x, z) for x in X] for z in Z]
+    assert 0 < np.sum(wanted) < np.size(wanted)
+    maps = feasibility_maps(section, leg, X, Z, delta_ds)
+    np.testing.assert_array_equal(maps.dynamic, wanted)
 
 
 def test_higher_obstacles_want_longer_steps_or_lower_waists() -> None:

@@ -154,6 +154,31 @@ def test_far_legs_are_told_by_how_far_at_least(x: float) -> None:
     assert (gaps > FAR).all() == (abs(x) > 0.5)
 
 
+@pytest.mark.parametrize("yaw", [0.0, 0.5])
+def test_the_gap_is_to_the_inflated_front_and_back(yaw: float) -> None:
+    """A section whose front is before the obstacle's by its margin, behind likewise."""
+    leg = body().leg
+    angles: Vector = np.tile([-0.4, 0.0, 0.0, 0.7, 0.0, -0.3], (1, 2, 1))
+    soles = np.zeros((1, 2, 6))
+    soles[..., 5] = yaw
+    ahead, width, margin = np.array([np.cos(yaw), np.sin(yaw)]), 0.06, 0.04
+    toe, heel = leg.outline.toe, leg.outline.heel
+    for free in (0.01, 0.02):
+        # As low as a sole is thick, so that the feet alone come near.
+        for x in (toe + margin + free, -heel - margin - width - free):
+            obstacle = Obstacle((x + 0.5 * width) * ahead, yaw, width, 0.001, 1.0)
+            gaps = leg_gaps(
+                leg,
+                angles,
+                soles,
+                (obstacle,),
+                (Section(width + 2.0 * margin, 0.001),),
+                [margin],
+                0.0,
+            )
+            assert gaps.min() == pytest.approx(free, abs=1e-9)
+
+
 def shank_of(angles: Vector, x: float, z: float) -> Vector:
     """A point of the left shank, from its knee, in a frame of the waist, (3,), m."""
     leg, c, s = body().leg, np.cos(angles[:4]), np.sin(angles[:4])

@@ -193,6 +193,26 @@ def test_sideways_way_roll_and_yaw_are_blended_like_the_way_ahead() -> None:
     np.testing.assert_allclose(speed[[0, -1]], 0.0, atol=1e-3)
 
 
+@pytest.mark.parametrize("yaw", [-0.5, 0.35])
+def test_the_corner_of_a_turned_sole_is_what_comes_near(yaw: float) -> None:
+    """A foot that leaves askew before a riser: the distance is that of its corners."""
+    ahead = max(
+        np.cos(yaw) * x - np.sin(yaw) * y
+        for x in (-SOLE.heel, SOLE.toe)
+        for y in (-SOLE.half_width, SOLE.half_width)
+    )
+    X_WStart = RigidTransform(
+        RollPitchYaw(0.0, 0.0, yaw), np.array([-ahead - 0.02, 0.0, 0.0])
+    )
+    X_WEnd = RigidTransform([0.12, 0.0, 0.2])
+    edges = np.array([[0.0, 0.0, 0.2]])
+    swing = swing_trajectory(X_WStart, X_WEnd, DURATION, PERIOD, edges, SOLE, PARAMS)
+    assert swing.status == "ok"
+    check_profile(swing, 0.0, 0.0, 0.2)
+    assert swing.clearance <= 0.02 + 1e-9
+    assert swing.clearance == pytest.approx(0.02, abs=2e-3)
+
+
 def test_the_toes_may_be_lifted_and_the_foot_drawn_back() -> None:
     """Both over within the swing; the sole keeps its clearances."""
     params = SwingParams(swing_pitch=-0.2, retraction=0.015)
