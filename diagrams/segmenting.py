@@ -79,9 +79,7 @@ def segment_file(
     result = SegmentedFile(
         points=len(points),
         segmentation=segmentation,
-        doubts=()
-        if segmentation.planes
-        else (describe_cloud(points), *doubt_cloud(points, gravity, params)),
+        doubts=() if segmentation.planes else _doubts(points, gravity, params),
         planes_json=out / "planes.json",
         planes_png=out / "planes.png",
     )
@@ -97,6 +95,13 @@ def segment_file(
         ),
     )
     return result
+
+
+def _doubts(
+    points: Vector, gravity: Vector, params: PlaneSegmenterParams
+) -> tuple[str, ...]:
+    likely = doubt_cloud(points, gravity, params, params.min_voxels())
+    return (describe_cloud(points), *likely)
 
 
 def _document(cloud: Path, gravity: Vector, result: SegmentedFile) -> dict[str, object]:

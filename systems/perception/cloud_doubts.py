@@ -46,7 +46,7 @@ def point_spacing(points: Vector) -> float:
 
 
 def doubt_cloud(
-    points: Vector, gravity: Vector, params: PlaneSegmenterParams
+    points: Vector, gravity: Vector, params: PlaneSegmenterParams, sole_voxels: int
 ) -> tuple[str, ...]:
     """Say what is likely wrong with a cloud in which no plane was found.
 
@@ -54,23 +54,24 @@ def doubt_cloud(
         points: finite, (n, 3), at least one, m.
         gravity: gravity in the cloud's frame, (3,), any length.
         params: what it was segmented with.
+        sole_voxels: how many voxels a sole covers: the least plane.
 
     Returns:
         At least one line, the likeliest first.
     """
-    if len(points) < params.min_voxels():
+    if len(points) < sole_voxels:
         return (
-            f"it has fewer points than a sole has voxels ({params.min_voxels()} of "
+            f"it has fewer points than a sole has voxels ({sole_voxels} of "
             f"{params.voxel_size:g} m)",
         )
     return (
         _doubt_origin(points)
-        or _doubt_scale(points, params)
+        or _doubt_scale(points, params, np.sqrt(sole_voxels) * params.voxel_size)
         or _doubt_density(points, params)
         or _doubt_gravity(points, gravity, params)
         or (
             "nothing in it is flat, level and as large as a sole "
-            f"({params.min_voxels()} voxels of {params.voxel_size:g} m)",
+            f"({sole_voxels} voxels of {params.voxel_size:g} m)",
         )
     )
 
@@ -93,9 +94,10 @@ def _doubt_origin(points: Vector) -> tuple[str, ...]:
     return ()
 
 
-def _doubt_scale(points: Vector, params: PlaneSegmenterParams) -> tuple[str, ...]:
-    """Doubts about the unit of the points."""
-    sole = np.sqrt(params.min_voxels()) * params.voxel_size
+def _doubt_scale(
+    points: Vector, params: PlaneSegmenterParams, sole: float
+) -> tuple[str, ...]:
+    """Doubts about the unit of the points; a sole is so large, m."""
     farthest = float(np.max(np.linalg.norm(points, axis=1)))
     size = float(np.linalg.norm(np.ptp(points, axis=0)))
     if size < sole:

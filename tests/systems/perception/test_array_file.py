@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as npst
 
@@ -57,6 +57,7 @@ def test_arrays_that_are_clouds(array: Vector, tmp_path: Path) -> None:
     np.testing.assert_array_equal(found, POINTS)
 
 
+@settings(deadline=None, derandomize=True)
 @given(
     points=npst.arrays(
         npst.floating_dtypes(sizes=(32, 64)) | npst.integer_dtypes(),

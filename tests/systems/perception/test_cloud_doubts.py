@@ -13,6 +13,8 @@ from systems.ports import Vector
 
 PARAMS = PlaneSegmenterParams()
 DOWN = np.array([0.0, 0.0, -9.81])
+SOLE = 48
+"""Voxels that a sole covers."""
 
 
 def plate(spacing: float = 0.01, low: float = 0.5) -> Vector:
@@ -46,7 +48,7 @@ def leaning(degrees: float) -> Vector:
 )
 def test_each_mistake_has_its_words(points: Vector, words: str) -> None:
     """The likely one alone is told."""
-    (doubt,) = doubt_cloud(points, DOWN, PARAMS)
+    (doubt,) = doubt_cloud(points, DOWN, PARAMS, SOLE)
     with pytest.raises(AssertionError, match=words):
         raise AssertionError(doubt)
 
@@ -54,14 +56,14 @@ def test_each_mistake_has_its_words(points: Vector, words: str) -> None:
 def test_a_cloud_of_noise_is_not_flat() -> None:
     """Where neither scale nor gravity is to blame."""
     points = np.random.default_rng(0).uniform(0.0, 0.5, (20_000, 3))
-    (doubt,) = doubt_cloud(points, DOWN, PARAMS)
+    (doubt,) = doubt_cloud(points, DOWN, PARAMS, SOLE)
     assert doubt.startswith("nothing in it is flat, level and as large as a sole")
 
 
 def test_gravity_that_points_along_the_surface() -> None:
     """A cloud of a camera, y down, taken for one with z up."""
     points = plate() @ np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, -1.0, 0.0]])
-    (doubt,) = doubt_cloud(points, DOWN, PARAMS)
+    (doubt,) = doubt_cloud(points, DOWN, PARAMS, SOLE)
     assert "leans by 90 deg" in doubt
     assert "along 0,1,0" in doubt or "along 0,-1,0" in doubt
 
@@ -81,4 +83,4 @@ def test_no_point_is_near_enough_to_be_looked_at() -> None:
     """Two dense heaps beyond the range that is kept: still an answer."""
     far = np.array([0.0, 0.0, 2e4])
     points = np.vstack([plate() + far, plate() - far])
-    assert len(doubt_cloud(points, DOWN, PARAMS)) == 1
+    assert len(doubt_cloud(points, DOWN, PARAMS, SOLE)) == 1

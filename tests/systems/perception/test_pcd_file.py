@@ -6,7 +6,7 @@ from pathlib import Path
 import lzf
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as npst
 
@@ -84,6 +84,7 @@ def test_points_of_every_type(encoding: str, dtype: str, tmp_path: Path) -> None
     np.testing.assert_array_equal(found, points)
 
 
+@settings(deadline=None, derandomize=True)
 @given(
     points=npst.arrays(
         np.float64,
@@ -223,6 +224,7 @@ def test_rows_that_make_no_sense(row: bytes, tmp_path: Path) -> None:
         read(data[:last] + row + b"\n", tmp_path)
 
 
+@settings(deadline=None, derandomize=True)
 @given(data=st.binary(max_size=200), keep=st.integers(0, 160))
 def test_garbage_is_refused(
     data: bytes, keep: int, tmp_path_factory: pytest.TempPathFactory

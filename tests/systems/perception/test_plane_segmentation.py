@@ -236,21 +236,6 @@ def test_poor_clouds_have_no_staircase(
         assert found.times_ms[0][0] == "filters"
 
 
-def test_the_area_of_a_slope_is_larger_than_its_plan() -> None:
-    """By the cosine of its slope, as a level plane of the same plan tells."""
-    x, y = (v.ravel() for v in np.meshgrid(*2 * [np.arange(0.0, 1.0, 0.005)]))
-    params = PlaneSegmenterParams(slope_tolerance=np.radians(30.0), threads=1)
-    areas = []
-    for slope in np.radians([0.0, 24.0]):
-        found, _ = segment_planes(
-            np.column_stack([x, y, np.tan(slope) * x]), GRAVITY, params
-        )
-        (plane,) = found.planes
-        areas.append(plane.area)
-    assert areas[0] == pytest.approx(1.0, rel=0.03)
-    assert areas[1] / areas[0] == pytest.approx(1.0 / np.cos(slope), rel=0.015)
-
-
 def test_wrong_shape_is_refused() -> None:
     """The error shows what came."""
     with pytest.raises(ValueError, match=r"points: must be \(n, 3\), got \(3, 5\)"):

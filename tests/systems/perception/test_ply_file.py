@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as npst
 
@@ -62,6 +62,7 @@ def test_points_of_every_type(
     np.testing.assert_array_equal(found, POINTS)
 
 
+@settings(deadline=None, derandomize=True)
 @given(
     points=npst.arrays(
         np.float64,
@@ -149,6 +150,7 @@ def test_files_that_make_no_sense(
         read(data.replace(old, new, 1), tmp_path)
 
 
+@settings(deadline=None, derandomize=True)
 @given(data=st.binary(max_size=200), keep=st.integers(0, 120))
 def test_garbage_is_refused(
     data: bytes, keep: int, tmp_path_factory: pytest.TempPathFactory

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as npst
 
@@ -53,6 +53,7 @@ def test_tables_that_are_read(text: str | bytes, tmp_path: Path) -> None:
     np.testing.assert_array_equal(read(text, tmp_path), POINTS)
 
 
+@settings(deadline=None, derandomize=True)
 @given(
     points=npst.arrays(
         np.float64,
@@ -120,6 +121,7 @@ def test_a_table_of_nothing(tmp_path: Path) -> None:
     assert read("\n# nothing\n", tmp_path).shape == (0, 3)
 
 
+@settings(deadline=None, derandomize=True)
 @given(data=st.binary(max_size=100))
 def test_garbage_is_read_or_refused(
     data: bytes, tmp_path_factory: pytest.TempPathFactory
