@@ -64,7 +64,7 @@ def test_cloud_without_planes(tmp_path: Path) -> None:
     document: Any = json.loads(result.planes_json.read_text(encoding="utf-8"))
     assert document["planes"] == []
     saw, doubt = document["doubts"]
-    assert saw.startswith("500 points in 2 x 2 x 2 m")
+    assert saw.startswith("500 points in 2 x 1.99 x 1.99 m, typically 0.14 m")
     assert doubt.startswith("its points are farther apart")
     assert result.doubts == (saw, doubt)
     assert result.planes_png.stat().st_size > 1000
