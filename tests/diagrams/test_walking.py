@@ -11,7 +11,6 @@ from diagrams.task_diagram import TaskDiagram
 from diagrams.tasks import build_task
 from diagrams.walking import Stand, initial_stand
 from models.jvrc1 import JVRC1
-from systems.planning.motion_params import MotionPlannerParams
 from systems.ports import Vector, eval_vector
 
 OVERRIDES = ("robot.x=-0.5", "robot.y=0.4", "robot.yaw=0.5", "scene.staircase.x=1.0")
@@ -53,7 +52,8 @@ def test_the_stand_is_on_the_floor_under_the_start_pose(overrides) -> None:
     np.testing.assert_allclose(com, stand.com, atol=2e-3)
     assert stand.com[2] == 0.85
     ahead = (stand.com[:2] - [x, y]) @ [np.cos(yaw), np.sin(yaw)]
-    assert ahead == pytest.approx(MotionPlannerParams().zmp_forward)
+    planner = load_scenario("stairs-exp1").parameters.motion_planner
+    assert ahead == pytest.approx(planner.zmp_forward)
     assert 0.0 < ahead < JVRC1.sole.toe
     aside = (stand.com[:2] - [x, y]) @ [-np.sin(yaw), np.cos(yaw)]
     assert aside == pytest.approx(0.0, abs=1e-9)
