@@ -16,7 +16,7 @@ def test_the_turn_is_from_the_goals_heading(
     climb: Evidence, heading: float, past: float
 ) -> None:
     """Whatever that is, and across the turn of pi; the feet's middle is elsewhere."""
-    motion = motion_of(["floor"] * 2, ["floor"] * 2)
+    motion = motion_of(["floor"] * 7, ["floor"] * 7)
     c, s = np.cos(heading + past), np.sin(heading + past)
     R = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
     poses = {}
