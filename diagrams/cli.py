@@ -117,7 +117,8 @@ def segment(
     cloud: Annotated[
         Path,
         typer.Argument(
-            metavar="CLOUD", help="Point cloud: .pcd, .ply, .xyz, .txt or .npz."
+            metavar="CLOUD",
+            help="Point cloud in metres: .pcd, .ply, .xyz, .txt, .csv, .npy or .npz.",
         ),
     ],
     gravity: Annotated[
@@ -157,6 +158,8 @@ def segment(
         f"{result.points} points: {len(found.planes)} planes, "
         f"{len(found.staircase.treads)} treads"
     )
+    for doubt in result.doubts:
+        typer.echo(f"  {doubt}")
     for stage, milliseconds in found.times_ms:
         typer.echo(f"  {stage:<16} {milliseconds:8.1f} ms")
     typer.echo(f"{result.planes_json}\n{result.planes_png}")

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 
 from models.jvrc1 import JVRC1
 from models.robot import Sole
+from systems.perception.cloud_doubts import describe_cloud, doubt_cloud
 from systems.perception.cloud_files import read_cloud
 from systems.perception.normals import gravity_aligned_rotation
 from systems.perception.plane_segmentation import segment_planes
@@ -35,6 +36,8 @@ class SegmentedFile:
     """How many points the cloud has."""
     segmentation: PlaneSegmentation
     """Planes and staircase, in the cloud's frame; with the time of reading first."""
+    doubts: tuple[str, ...]
+    """Of a cloud without planes: what it is like, and what is likely wrong with it."""
     planes_json: Path
     """The planes as JSON."""
     planes_png: Path
@@ -80,6 +83,7 @@ def segment_file(
     result = SegmentedFile(
         points=len(points),
         segmentation=segmentation,
+        doubts=() if segmentation.planes else _doubts(points, gravity, params),
         planes_json=out / "planes.json",
         planes_png=out / "planes.png",
     )
@@ -90,23 +94,29 @@ def segment_file(
     _write_atomically(
         result.planes_json,
         lambda path: path.write_text(
-            json.dumps(_document(cloud, gravity, len(points), segmentation), indent=1)
-            + "\n",
+            json.dumps(_document(cloud, gravity, result), indent=1) + "\n",
             encoding="utf-8",
         ),
     )
     return result
 
 
-def _document(
-    cloud: Path, gravity: Vector, points: int, segmentation: PlaneSegmentation
-) -> dict[str, object]:
+def _doubts(
+    points: Vector, gravity: Vector, params: PlaneSegmenterParams
+) -> tuple[str, ...]:
+    likely = doubt_cloud(points, gravity, params, params.min_voxels())
+    return (describe_cloud(points), *likely)
+
+
+def _document(cloud: Path, gravity: Vector, result: SegmentedFile) -> dict[str, object]:
+    segmentation = result.segmentation
     return {
         "cloud": cloud.name,
-        "points": points,
+        "points": result.points,
         "gravity": to_json(np.asarray(gravity, dtype=np.float64)),
         "planes": to_json(segmentation.planes),
         "staircase": to_json(segmentation.staircase),
+        "doubts": list(result.doubts),
         "times_ms": {stage: round(ms, 3) for stage, ms in segmentation.times_ms},
     }
 

@@ -152,6 +152,25 @@ def test_an_empty_cloud_is_bad_input(tmp_path) -> None:
     assert "empty.xyz" in line
 
 
+def test_a_cloud_without_planes_says_what_is_likely(tmp_path) -> None:
+    """What was seen and a question, below the count; neither where planes are."""
+    x, y = (v.ravel() for v in np.meshgrid(*2 * [np.arange(0.0, 1.0, 0.01)]))
+    level = np.column_stack([x, y, 0.0 * x])
+    said = {}
+    for name, scale in (("metres", 1.0), ("millimetres", 1000.0)):
+        np.save(tmp_path / f"{name}.npy", scale * level)
+        result = footfall("segment", tmp_path / f"{name}.npy", "--out", tmp_path / name)
+        assert result.exit_code == 0, result.output
+        said[name] = result.stdout
+    assert said["millimetres"].splitlines()[:3] == [
+        "10000 points: 0 planes, 0 treads",
+        "  10,000 points in 990 x 990 x 0 m, typically 10 m apart",
+        "  it is 970 m across with points 10 m apart: are these centimetres or "
+        "millimetres?",
+    ]
+    assert "are these" not in said["metres"]
+
+
 def test_the_slope_decides_which_planes_are_kept(tmp_path) -> None:
     """One of 20 degrees is too steep by default, as for `PlaneSegmenterParams`."""
     assert math.radians(SLOPE) == pytest.approx(PlaneSegmenterParams().slope_tolerance)

@@ -62,7 +62,11 @@ def test_the_stand_is_on_the_floor_under_the_start_pose(overrides) -> None:
     np.testing.assert_allclose(com, stand.com, atol=2e-3)
     assert stand.com[2] == 0.85
     ahead = (stand.com[:2] - [x, y]) @ [np.cos(yaw), np.sin(yaw)]
+    planner = load_scenario("stairs-exp1").parameters.motion_planner
+    assert ahead == pytest.approx(planner.zmp_forward)
     assert 0.0 < ahead < JVRC1.sole.toe
+    aside = (stand.com[:2] - [x, y]) @ [-np.sin(yaw), np.cos(yaw)]
+    assert aside == pytest.approx(0.0, abs=1e-9)
     for foot, pose, side in zip(
         ("left", "right"), stand.foot_poses, (1.0, -1.0), strict=True
     ):
@@ -102,6 +106,37 @@ def test_contacts_and_references_are_those_of_the_plan(stood) -> None:
             output(stood, "landing_adaptor", port),
             output(stood, "motion_player", port),
         )
+
+
+@pytest.mark.parametrize(
+    ("port", "system", "target"),
+    [
+        ("contacts", "stabilizer", "contacts"),
+        ("contacts", "ik_tracker", "contacts"),
+        ("contacts", "static_stability", "contacts"),
+        ("foot_references", "stabilizer", "foot_references"),
+        ("foot_references", "ik_tracker", "foot_references"),
+    ],
+)
+def test_balance_and_tracking_go_by_the_feet_that_have_landed(
+    stood, port: str, system: str, target: str
+) -> None:
+    """Not by the plan's, from which they differ about a touch-down."""
+    task, root = stood
+    root = root.Clone()
+    landing = task.diagram.GetSubsystemByName("landing_adaptor")
+    context = landing.GetMyMutableContextFromRoot(root)
+    state = context.get_discrete_state(0).value()
+    context.SetDiscreteState(0, state - 0.25)
+    adapted = eval_vector(landing.GetOutputPort(port), context)
+    player = task.diagram.GetSubsystemByName("motion_player")
+    planned = eval_vector(player.GetOutputPort(port), player.GetMyContextFromRoot(root))
+    assert (np.abs(adapted - planned) > 0.1).all()
+    subsystem = task.diagram.GetSubsystemByName(system)
+    seen = eval_vector(
+        subsystem.GetInputPort(target), subsystem.GetMyContextFromRoot(root)
+    )
+    np.testing.assert_array_equal(seen, adapted)
 
 
 def test_controllers_share_their_period(stood) -> None:

@@ -132,6 +132,11 @@ def test_a_step_aside_and_a_turn_are_taken_on_the_way() -> None:
     whole = float(end[:2] @ aside)
     assert middle[:2] @ aside == pytest.approx(0.5 * whole, abs=1e-6)
     assert np.abs(np.diff(poses[:, 5])).max() < 0.01
+    # The quintic blend: neither speed nor acceleration where the foot leaves and lands.
+    u = TIME / DURATION
+    blend = u**3 * (10.0 - 15.0 * u + 6.0 * u**2)
+    np.testing.assert_allclose(poses[:, 5] / 0.4, blend, atol=1e-9)
+    np.testing.assert_allclose(poses[:, :2] @ aside / whole, blend, atol=1e-9)
 
 
 def test_the_first_foot_lifts_its_toes_the_second_its_heel() -> None:
