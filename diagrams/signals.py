@@ -19,9 +19,10 @@ import pandas as pd
 import pyarrow as pa  # type: ignore[import-untyped]
 import pyarrow.parquet as pq  # type: ignore[import-untyped]
 from pydrake.systems.framework import Context, DiagramBuilder, OutputPort
-from pydrake.systems.primitives import VectorLogSink
 
 from diagrams.scenario import Scenario, load_scenario
+from systems.ports import Vector
+from systems.signal_log import SignalLog
 from systems.value_log_sink import LoggedValue, ValueLogSink
 from systems.values import Json, to_json
 
@@ -67,7 +68,8 @@ class SignalRecorder:
     def __init__(self, builder: DiagramBuilder) -> None:
         """A recorder of the ports of systems that `builder` holds directly."""
         self._builder = builder
-        self._vectors: dict[str, tuple[VectorSignal, VectorLogSink]] = {}
+        self._vectors: dict[str, VectorSignal] = {}
+        self._logs: dict[float, SignalLog] = {}
         self._values: dict[str, tuple[ValueSignal, ValueLogSink]] = {}
 
     def add_vector(
@@ -85,7 +87,7 @@ class SignalRecorder:
             port: the port.
             columns: a name for each element, all different, none of them "time".
             units: the unit of each element, or one for all.
-            period: time between samples, s.
+            period: time between samples, s; see `SignalLog` for what a sample holds.
 
         Raises:
             ValueError: the name is taken or ill-formed, or the numbers do not match.
@@ -99,10 +101,13 @@ class SignalRecorder:
             )
         if len({*columns, "time"}) != len(columns) + 1:
             raise ValueError(f"signal {name}: columns must be unique, got {columns}")
-        sink = VectorLogSink(port.size(), period)
-        self._builder.AddNamedSystem(f"log({name})", sink)
-        self._builder.Connect(port, sink.get_input_port())
-        self._vectors[name] = (VectorSignal(name, port, columns, every, period), sink)
+        if period not in self._logs:
+            log = SignalLog(period)
+            self._logs[period] = log
+            self._builder.AddNamedSystem(f"signal_log({period:g} s)", log)
+        log = self._logs[period]
+        self._builder.Connect(port, log.declare_signal(name, port.size()))
+        self._vectors[name] = VectorSignal(name, port, columns, every, period)
 
     def add_value(self, name: str, port: OutputPort, period: float) -> None:
         """Logs an abstract port from now on; call before the diagram is built.
@@ -124,7 +129,7 @@ class SignalRecorder:
     @property
     def vectors(self) -> tuple[VectorSignal, ...]:
         """The vector ports that are logged, in the order they were added."""
-        return tuple(signal for signal, _ in self._vectors.values())
+        return tuple(self._vectors.values())
 
     @property
     def values(self) -> tuple[ValueSignal, ...]:
@@ -133,12 +138,10 @@ class SignalRecorder:
 
     def frames(self, root_context: Context) -> dict[str, pd.DataFrame]:
         """What was logged of every vector port: `time` [s] and a column an element."""
-        frames = {}
-        for name, (signal, sink) in self._vectors.items():
-            log = sink.FindLog(root_context)
-            samples = np.column_stack([log.sample_times(), log.data().T])
-            frames[name] = pd.DataFrame(samples, columns=["time", *signal.columns])
-        return frames
+        return {
+            name: pd.DataFrame(samples, columns=["time", *self._vectors[name].columns])
+            for name, samples in self._samples(root_context).items()
+        }
 
     def logged_values(
         self, root_context: Context
@@ -157,13 +160,25 @@ class SignalRecorder:
         """
         folder.mkdir(parents=True, exist_ok=True)
         for name, frame in self.frames(root_context).items():
-            units = ("s", *self._vectors[name][0].units)
+            units = ("s", *self._vectors[name].units)
             _write_parquet(frame, units, folder / f"{name}.parquet")
         for name, entries in self.logged_values(root_context).items():
             with (folder / f"{name}.jsonl").open("w", encoding="utf-8") as file:
                 for entry in entries:
                     line = {"time": entry.time, "value": to_json(entry.value)}
                     file.write(json.dumps(line, allow_nan=False) + "\n")
+
+    def _samples(self, root_context: Context) -> dict[str, Vector]:
+        """Time, s, and value of every vector signal, (n, 1 + elements) each."""
+        logs = {p: log.find_log(root_context) for p, log in self._logs.items()}
+        first = dict.fromkeys(logs, 1)
+        samples = {}
+        for name, signal in self._vectors.items():
+            log, begin = logs[signal.period], first[signal.period]
+            end = begin + len(signal.columns)
+            samples[name] = np.column_stack([log[:, 0], log[:, begin:end]])
+            first[signal.period] = end
+        return samples
 
     def _check_name(self, name: str) -> None:
         if not _NAME.fullmatch(name):
