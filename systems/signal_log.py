@@ -90,9 +90,9 @@ class SignalLog(LeafSystem):
         log: Vector = np.array(rows, dtype=np.float64).reshape(len(rows), width)
         return log
 
-    def clear_log(self, root_context: Context, rows: int) -> None:
-        """Forgets the first `rows` rows of a diagram's context."""
-        del self._rows(self.GetMyContextFromRoot(root_context))[:rows]
+    def clear_log(self, root_context: Context) -> None:
+        """Forgets what a diagram's context holds."""
+        self._rows(self.GetMyContextFromRoot(root_context)).clear()
 
     def _rows(self, context: Context) -> list[Vector]:
         held = self._log.get_mutable_cache_entry_value(context)
