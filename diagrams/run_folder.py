@@ -2,6 +2,7 @@
 
 import hashlib
 import re
+import tempfile
 from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
@@ -16,6 +17,27 @@ CHANGES_LENGTH = 60
 
 class RecordingError(RuntimeError):
     """A run's folder cannot be written to any more; one line that names it."""
+
+
+class OutError(ValueError):
+    """A run cannot go where it was to; the message is one line that names the place."""
+
+
+def require_usable(out: Path) -> None:
+    """Tells before a run of minutes, rather than after it, that it cannot be kept.
+
+    Raises:
+        OutError: `out` is not an empty folder, or cannot be made or written to.
+    """
+    try:
+        if out.exists() and (not out.is_dir() or any(out.iterdir())):
+            raise OutError(f"--out {out}: exists and is not an empty folder")
+        place = out if out.exists() else out.parent
+        place.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=place):
+            pass
+    except OSError as error:
+        raise OutError(f"--out {out}: cannot be written: {error.strerror}") from error
 
 
 def begin_run(folder: Path, scenario: Scenario) -> None:
