@@ -138,6 +138,7 @@ def test_a_disk_that_fills_up_is_status_1_and_one_line(stand) -> None:
     with room_for(30_000):
         result = footfall_run(stand, "--out", "out")
     assert (result.exit_code, result.stdout) == (1, "")
+    assert isinstance(result.exception, SystemExit)
     (line,) = result.stderr.splitlines()
     assert line.startswith("footfall: out: cannot be written to at 0.5")
     assert load_run("out").summary["outcome"] == "cut"
