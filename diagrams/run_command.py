@@ -89,7 +89,8 @@ def _progress(console: Console, limit: float) -> Iterator[Callable[[float, str],
             nonlocal told
             if time > told + TOLD_EVERY - 1e-9:
                 told += TOLD_EVERY
-                line = f"{time:.4g} s of at most {limit:g} s: {activity}"
+                doing = f": {activity}" if activity else ""
+                line = f"{time:.4g} s of at most {limit:g} s{doing}"
                 console.print(line, highlight=False, markup=False, soft_wrap=True)
 
         yield tell
