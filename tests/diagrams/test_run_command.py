@@ -6,6 +6,7 @@ import sys
 from types import ModuleType
 
 import pytest
+from pydrake.systems.framework import Context
 from typer.testing import CliRunner
 
 import diagrams.simulation
@@ -13,6 +14,7 @@ from diagrams.cli import app
 from diagrams.scenario import save_scenario
 from diagrams.signals import load_run
 from diagrams.simulation import summarize
+from diagrams.task_diagram import TaskDiagram
 from systems.values import TaskStatus
 from tests.diagrams.test_signal_files import room_for
 
@@ -46,12 +48,13 @@ def test_a_signal_ends_a_run_in_good_order(
     stand, monkeypatch, tmp_path, number, status
 ) -> None:
     """It is judged as interrupted, printed, not drawn; one line says so."""
+    task_status = TaskDiagram.task_status
 
-    def fallen(_: object) -> bool:
+    def look(task: TaskDiagram, context: Context) -> TaskStatus:
         os.kill(os.getpid(), number)
-        return False
+        return task_status(task, context)
 
-    monkeypatch.setattr("diagrams.simulation._FallWatch.fallen", fallen)
+    monkeypatch.setattr(TaskDiagram, "task_status", look)
     result = footfall_run(stand, "--out", "out")
     assert result.exit_code == status
     assert result.stdout.startswith("interrupted: interrupted at 0.05 s")
