@@ -235,7 +235,7 @@ def summarize(task: TaskDiagram, scenario: Scenario, simulated: Simulated) -> Su
         judgement, perception = judge(evidence), _perception(task, evidence)
     else:
         interrupted = simulated.stop == "interrupted"
-        outcome: Outcome = "interrupted" if interrupted else "timed_out"
+        outcome: Outcome = "interrupted" if interrupted else "cut"
         judgement = Judgement(outcome=outcome, reason=simulated.reason)
         perception = None
     simulated_time = simulated.context.get_time()

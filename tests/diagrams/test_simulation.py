@@ -100,7 +100,7 @@ def test_what_breaks_a_run_off_keeps_the_log(tmp_path, standing) -> None:
 
 @pytest.mark.parametrize(
     ("error", "outcome"),
-    [(KeyboardInterrupt(), "interrupted"), (RuntimeError("no"), "timed_out")],
+    [(KeyboardInterrupt(), "interrupted"), (RuntimeError("no"), "cut")],
 )
 def test_a_run_that_ends_before_it_logs_says_so(
     tmp_path, standing, monkeypatch, error, outcome
