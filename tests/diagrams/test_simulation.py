@@ -181,9 +181,9 @@ def test_a_disk_that_fills_up_ends_the_run_in_one_line(
     assert "File too large" in line
     run = load_run(folder)
     assert run.summary["outcome"] == "cut"
-    rows = [len(run.signals[name]) for name in run.signals]
-    assert all(count > 0 and count % 100 in (0, 1) for count in rows)
-    assert bool(rows) == (room > 60_000)
+    ends = [run.signals[name]["time"].iloc[-1] for name in run.signals]
+    assert all(time > 0.4 for time in ends)
+    assert ("plant.state" in run.signals) == (room > 60_000)
     files = [path for path in folder.rglob("*") if path.is_file()]
     assert all(path.stat().st_size > 0 for path in files)
     assert not [path for path in files if path.suffix == ".partial"]
@@ -221,7 +221,7 @@ def test_a_summary_that_does_not_fit_leaves_the_signals(
         run_task(standing.task(), standing.scenario(), tmp_path / "run")
     run = load_run(tmp_path / "run")
     assert run.summary["outcome"] == "cut"
-    assert len(run.signals["plant.state"]) == 140
+    assert len(run.signals["plant.state"]) >= 140
 
 
 def test_what_is_streamed_is_what_memory_would_hold(tmp_path, standing) -> None:
