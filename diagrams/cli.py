@@ -14,6 +14,8 @@ from diagrams.interruption import StopSignals
 # What simulates takes seconds to import; every command imports what it needs, so that
 # the help text comes at once.
 if TYPE_CHECKING:
+    from pydrake.geometry import Meshcat
+
     from diagrams.scenario import Scenario
     from systems.ports import Vector
 
@@ -100,19 +102,16 @@ def run(
     Ctrl-C or SIGTERM ends a run early; it is judged and kept, but not drawn. The
     signals go to disk while it runs: what is killed has all but its last second.
     """
-    with StopSignals() as stop, _stopped_in_one_line(stop), _bad_input_in_one_line():
+    with _bad_input_in_one_line():
         from diagrams.run_command import run_scenario
-        from diagrams.run_folder import RecordingError
         from diagrams.tasks import build_task
 
         _quiet_drake()
         changes = list(overrides or [])
         chosen = _load(scenario, changes, seed)
-        try:
-            summary = run_scenario(chosen, changes, out, build_task, stop, meshcat)
-        except RecordingError as error:
-            typer.echo(f"footfall: {error}", err=True)
-            raise typer.Exit(NOT_DONE) from None
+        show = _start_meshcat if meshcat else None
+        with StopSignals() as stop, _run_ends_in_one_line(stop):
+            summary = run_scenario(chosen, changes, out, build_task, stop, show)
     raise typer.Exit(DONE if summary.outcome == "completed" else NOT_DONE)
 
 
@@ -290,11 +289,22 @@ def _quiet_drake() -> None:
     logging.getLogger("drake").setLevel(logging.ERROR)
 
 
+def _start_meshcat() -> "Meshcat":
+    from pydrake.geometry import Meshcat
+
+    return Meshcat()
+
+
 @contextmanager
-def _stopped_in_one_line(stop: StopSignals) -> Iterator[None]:
-    """What a signal ends says so, and exits as a process that it ended does."""
+def _run_ends_in_one_line(stop: StopSignals) -> Iterator[None]:
+    """What a signal or a full disk ends says so, and exits with the status of that."""
+    from diagrams.run_folder import RecordingError
+
     try:
         yield
+    except RecordingError as error:
+        typer.echo(f"footfall: {error}", err=True)
+        raise typer.Exit(NOT_DONE) from None
     except KeyboardInterrupt as interrupt:
         typer.echo(f"footfall: {str(interrupt) or 'interrupted'}", err=True)
         raise typer.Exit(stop.exit_status()) from None

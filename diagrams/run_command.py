@@ -29,7 +29,7 @@ def run_scenario(
     out: Path | None,
     build: Callable[[Scenario, Meshcat | None], TaskDiagram],
     stop: StopSignals,
-    live: bool = False,
+    start_meshcat: Callable[[], Meshcat] | None = None,
 ) -> Summary:
     """Simulates a scenario, writes its folder, prints its summary, draws its pictures.
 
@@ -42,7 +42,7 @@ def run_scenario(
             `RUNS_FOLDER` that tells scenario, seed and changes.
         build: makes the closed loop of a scenario.
         stop: notes the signals that come while the run is judged.
-        live: whether Meshcat shows it.
+        start_meshcat: gives what shows it live; None where nothing does.
 
     Raises:
         OutError: `out` cannot be used.
@@ -54,7 +54,7 @@ def run_scenario(
         require_usable(out)
     console = Console(stderr=True)
     with _status(console, "building the diagram"):
-        meshcat = Meshcat() if live else None
+        meshcat = start_meshcat() if start_meshcat else None
         task = build(scenario, meshcat)
     if meshcat is not None:
         console.print(f"watch at {meshcat.web_url()}")
@@ -63,7 +63,7 @@ def run_scenario(
     )
     limit = scenario.simulation.max_time
     with _progress(console, limit) as progress:
-        rate = 1.0 if live else 0.0
+        rate = 1.0 if meshcat else 0.0
         summary = run_task(task, scenario, folder, progress, rate, stop.held)
     with stop.held():
         print_summary(summary, folder)
