@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 import pygraphviz  # type: ignore[import-untyped]
 from pydrake.systems.framework import Diagram, PortDataType, System
-from pydrake.systems.primitives import VectorLogSink
 
+from systems.signal_log import SignalLog
 from systems.value_log_sink import ValueLogSink
 
 VECTOR_COLOR, ABSTRACT_COLOR = "#1f5fa8", "#b3541e"
@@ -147,7 +147,7 @@ def _without_library_warnings() -> Iterator[None]:
 
 
 def _is_log(system: System) -> bool:
-    return isinstance(system, VectorLogSink | ValueLogSink)
+    return isinstance(system, SignalLog | ValueLogSink)
 
 
 def _fill(system: System) -> str:

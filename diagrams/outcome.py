@@ -33,7 +33,9 @@ from diagrams.true_motion import TrueMotion
 from systems.ports import Vector
 from systems.values import FEET, Json
 
-Outcome: TypeAlias = Literal["completed", "fell", "infeasible", "timed_out"]
+Outcome: TypeAlias = Literal[
+    "completed", "fell", "infeasible", "timed_out", "interrupted", "cut"
+]
 FALLEN_HEIGHT = 0.6
 """A robot has fallen when its base is lower above the lower foot than this share of
 where it began."""
@@ -114,7 +116,8 @@ def judge(evidence: Evidence) -> Judgement:
     is a staircase), the robot stands, no joint went faster than its limit and nothing
     but soles touched the staircase. "fell": see `has_fallen`. "infeasible": the
     executive gave up, or finished without all of the above. "timed_out": the time was
-    up, or the run was interrupted, or the solver gave up on a robot that stood.
+    up, or the solver gave up on a robot that stood. "interrupted": a signal ended the
+    run. "cut" is what `load_run` calls a run that was never judged.
     """
     wrenches = foot_wrenches(evidence)
     contacts = foot_contacts(evidence, wrenches)
@@ -157,6 +160,8 @@ def _verdict(
         )
     if evidence.stop == "infeasible":
         return "infeasible", evidence.stop_reason
+    if evidence.stop == "interrupted":
+        return "interrupted", evidence.stop_reason
     if evidence.stop != "finished":
         return "timed_out", evidence.stop_reason
     faults = _faults(evidence, speed)

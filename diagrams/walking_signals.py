@@ -136,6 +136,7 @@ def record_walking(
         "static_stability.polygon",
         walking.stability.GetOutputPort("polygon"),
         VALUE_PERIOD,
+        keep=False,
     )
     recorder.add_value(
         "contact_monitor.touches",

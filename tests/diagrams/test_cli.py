@@ -117,7 +117,7 @@ def test_the_reason_stays_one_line_as_it_is(stand, tmp_path) -> None:
         (("run", "nowhere/x.yaml"), ("nowhere/x.yaml", "no such file")),
         (("diagram", "stairs-exp9"), ("stairs-exp9",)),
         (("plot", "nowhere"), ("nowhere", "no such folder")),
-        (("replay", "."), ("not a run folder", "summary.json")),
+        (("replay", "."), ("not a run folder", "scenario.yaml")),
         (("segment", "nowhere.pcd"), ("nowhere.pcd",)),
         (("segment", "x.pcd", "--gravity", "0,0"), ("--gravity", "'0,0'")),
         (("segment", "x.pcd", "--gravity", "0,0,0"), ("--gravity",)),

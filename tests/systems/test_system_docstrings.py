@@ -57,6 +57,7 @@ from systems.sensing.depth_camera import DepthCamera, DepthCameraParams
 from systems.sensing.foot_wrench_sensor import FootWrenchSensor
 from systems.sensing.kinematic_state import KinematicState
 from systems.sensing.tilting_lidar import TiltingLidar, TiltingLidarParams
+from systems.signal_log import SignalLog
 from systems.tracking.ik_tracker import IkTracker
 from systems.tracking.whole_body_feedforward import WholeBodyFeedforward
 from systems.tracking.whole_body_ik import IkParams
@@ -143,6 +144,7 @@ FACTORIES: dict[type[LeafSystem], Callable[[], LeafSystem]] = {
         mount_body=1,
         X_BM=RigidTransform(),
     ),
+    SignalLog: lambda: SignalLog(0.1),
     Stabilizer: lambda: Stabilizer(StabilizerParams(), JVRC1.sole, 62.4),
     StaircaseMap: StaircaseMap,
     StaticStability: lambda: StaticStability(0.1, 0.1, 0.05, 0.7),

@@ -49,7 +49,7 @@ def test_system_publishes_the_core(
     assert evaluate(segmenter, context) is found
     watch = stopwatch(segmenter)
     assert watch is not None
-    assert len(watch.durations()) == 2
+    assert watch.count == 2
     assert len(found.staircase.treads) == len(unseen.staircase.treads) == 3
     # The port carries floats of 32 bits.
     single: Vector = cloud.astype(np.float32).astype(np.float64)
