@@ -9,7 +9,7 @@ from pydrake.systems.primitives import ConstantValueSource, ConstantVectorSource
 from diagrams.evidence import MOVERS_SIGNAL
 from diagrams.room_perception import add_perception
 from diagrams.scenario import ROBOTS, Scenario
-from diagrams.station import FURNITURE, add_station
+from diagrams.station import add_station
 from diagrams.task_diagram import TaskDiagram, build_diagram
 from diagrams.walking import add_walking, initial_stand
 from diagrams.walking_signals import SIGNAL_PERIOD, VALUE_PERIOD, record_walking
@@ -42,9 +42,7 @@ def build_room_crossing(
     robot = ROBOTS[scenario.robot.name]
     builder = DiagramBuilder()
 
-    station = add_station(
-        builder, scenario, robot, params.ik.period, FURNITURE, soles_allowed=False
-    )
+    station = add_station(builder, scenario, robot, params.ik.period)
     frame, environment = add_perception(builder, scenario, station)
 
     goal: Vector = np.array(scenario.task.goal, dtype=np.float64)

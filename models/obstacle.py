@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from models.solid_names import BOX
 from models.solids import Box, Rgba, upright_pose
 from models.validation import require_finite, require_length, require_positive
 
@@ -54,4 +55,4 @@ class BoxParams:
         self.validate()
         size = np.array(self.size, dtype=np.float64)
         X_WB = upright_pose(self.x, self.y, self.z + size[2] / 2.0, self.yaw)
-        return Box(f"box/{self.name}", X_WB, size, self.friction, COLOR)
+        return Box(f"{BOX}{self.name}", X_WB, size, self.friction, COLOR)

@@ -12,7 +12,7 @@ from pydrake.multibody.plant import AddMultibodyPlant, MultibodyPlantConfig
 from pydrake.systems.framework import Context, DiagramBuilder, LeafSystem
 from pydrake.systems.primitives import ConstantVectorSource
 
-from diagrams.evidence import Evidence
+from diagrams.evidence import Evidence, robot_limits
 from diagrams.obstacle_crossing import build_obstacle_crossing
 from diagrams.scenario import Scenario, SimulationParams, load_scenario
 from diagrams.signals import SignalRecorder
@@ -21,10 +21,13 @@ from diagrams.task_diagram import TaskDiagram
 from models.jvrc1 import JVRC1
 from models.robot_loader import add_robot, is_sole
 from models.scene import SceneParams
+from models.solid_names import is_ground
 from models.solids import add_solids
 from models.staircase import StaircaseParams
-from systems.sensing.contact_monitor import ContactMonitor, watched_geometry
+from systems.sensing.contact_monitor import ContactMonitor
 from systems.sensing.foot_wrench_sensor import FootWrenchSensor
+from systems.sensing.robot_contacts import watched_geometry
+from systems.sensing.speed_monitor import SpeedMonitor
 from systems.timing import timed
 from systems.values import FEET, TaskStatus
 from tests.diagrams.climb_evidence import climb_evidence
@@ -158,11 +161,21 @@ def standing_task(
     )
     clock = builder.AddNamedSystem("executive", Clock(end, last))
     watched = watched_geometry(
-        plant, scene_graph.model_inspector(), robot, "staircase/", is_sole
+        plant,
+        scene_graph.model_inspector(),
+        robot,
+        tuple(JVRC1.foot_bodies[foot] for foot in FEET),
+        is_sole,
+        is_ground,
     )
+    weight = robot_limits(plant, robot).weight
     monitor = builder.AddNamedSystem(
-        "contact_monitor", ContactMonitor(watched, TIME_STEP)
+        "contact_monitor", ContactMonitor(watched, TIME_STEP, weight)
     )
+    speeds = builder.AddNamedSystem(
+        "speed_monitor", SpeedMonitor(plant, robot, TIME_STEP)
+    )
+    builder.Connect(plant.get_state_output_port(robot), speeds.GetInputPort("state"))
     builder.Connect(
         plant.get_contact_results_output_port(), monitor.GetInputPort("contact_results")
     )
@@ -195,9 +208,25 @@ def standing_task(
         ("N", "N", "N", "Nm", "Nm", "Nm") * 2,
         0.005,
     )
+    for port, columns in (
+        ("foot_forces", tuple(f"{foot}_{part}" for foot in FEET for part in WRENCH[:3])),
+        ("other_support", ("fz",)),
+        ("impact", FEET),
+    ):
+        signals.add_vector(
+            f"contact_monitor.{port}", monitor.GetOutputPort(port), columns, "N", 0.005
+        )
+    signals.add_vector(
+        "speed_monitor.peak_speeds",
+        speeds.GetOutputPort("peak_speeds"),
+        tuple(joint.name() for joint in joints),
+        "rad/s",
+        0.025,
+    )
     signals.add_value("executive.status", clock.GetOutputPort("status"), 0.005)
     signals.add_value("contact_monitor.touches", monitor.GetOutputPort("touches"), 0.05)
     return TaskDiagram(
+        kind="standing",
         diagram=builder.Build(),
         plant=plant,
         robot_instance=robot,
