@@ -114,9 +114,8 @@ def stands_flat(corners: Vector, ground: Ground) -> np.ndarray[tuple[int], np.dt
         ground: which.
     """
     finite = np.isfinite(corners).all(axis=(1, 2))
-    height = corner_heights(np.where(finite[:, None, None], corners, np.inf), ground)
-    with np.errstate(invalid="ignore"):
-        level = (height.max(axis=1) <= ABOVE) & (height.min(axis=1) >= -DEEP)
+    height = corner_heights(np.where(finite[:, None, None], corners, 0.0), ground)
+    level = (height.max(axis=1) <= ABOVE) & (height.min(axis=1) >= -DEEP)
     flat: np.ndarray[tuple[int], np.dtype] = np.logical_and(finite, level)
     flat[flat] = share_over(corners[flat], ground) >= SOLE_ON_GROUND
     return flat
