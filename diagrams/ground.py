@@ -113,7 +113,7 @@ def stands_flat(corners: Vector, ground: Ground) -> np.ndarray[tuple[int], np.dt
         corners: (n, 4, 3), m.
         ground: which.
     """
-    finite = np.isfinite(corners).all(axis=(1, 2))
+    finite = np.asarray(np.isfinite(corners).all(axis=(1, 2)))
     height = corner_heights(np.where(finite[:, None, None], corners, 0.0), ground)
     level = (height.max(axis=1) <= ABOVE) & (height.min(axis=1) >= -DEEP)
     flat: np.ndarray[tuple[int], np.dtype] = np.logical_and(finite, level)
