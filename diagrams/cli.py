@@ -35,8 +35,8 @@ app = typer.Typer(
     name="footfall",
     help="Humanoids that see stairs, obstacles and clutter, and walk them, simulated "
     "closed loop with Drake.",
-    epilog="Exit status: 0 the task was done; 1 it was not (fell, infeasible, timed "
-    "out); 2 bad input.",
+    epilog="Exit status: 0 the task was done; 1 it was not (failed, fell, infeasible, "
+    "timed out, cut); 2 bad input; 130 and 143 interrupted.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
