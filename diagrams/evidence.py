@@ -12,7 +12,7 @@ from pydrake.systems.framework import Context
 
 from diagrams.box_clearance import box_clearances
 from diagrams.crossing_judge import CrossingEvidence
-from diagrams.self_distance import SelfDistance, least_self_distance, robot_alone
+from diagrams.self_distance import SelfDistance, least_self_distance, lone_robot
 from diagrams.task_diagram import TaskDiagram
 from diagrams.true_motion import TrueMotion, true_motion
 from models.solid_names import is_box, is_ground
@@ -129,7 +129,7 @@ def gather(
         ),
         goal=task.goal,
         touches=touches[-1].touches if touches else None,
-        self_distance=least_self_distance(robot_alone(task.robot), time, state),
+        self_distance=least_self_distance(lone_robot(task.robot), time, state),
         activities=tuple(activities) or None,
         segmentations=tuple(
             entry.value

@@ -31,7 +31,7 @@ class SelfDistance:
 
 
 @dataclass(frozen=True)
-class RobotAlone:
+class LoneRobot:
     """A robot without a scene, with its collision geometry and its filters."""
 
     diagram: Diagram
@@ -40,17 +40,17 @@ class RobotAlone:
     instance: ModelInstanceIndex
 
 
-def robot_alone(robot: RobotModel) -> RobotAlone:
+def lone_robot(robot: RobotModel) -> LoneRobot:
     """Builds the robot; only pairs of its bodies that may collide are measured."""
     builder = DiagramBuilder()
     plant, scene_graph = AddMultibodyPlantSceneGraph(builder, time_step=0.0)
     instance = add_robot(plant, scene_graph, robot)
     plant.Finalize()
-    return RobotAlone(builder.Build(), plant, scene_graph, instance)
+    return LoneRobot(builder.Build(), plant, scene_graph, instance)
 
 
 def least_self_distance(
-    alone: RobotAlone, time: Vector, state: Vector
+    alone: LoneRobot, time: Vector, state: Vector
 ) -> SelfDistance | None:
     """The least distance between two of a robot's bodies that may collide.
 
@@ -86,7 +86,7 @@ def least_self_distance(
     return best
 
 
-def _body(alone: RobotAlone, query: QueryObject, geometry: object) -> str:
+def _body(alone: LoneRobot, query: QueryObject, geometry: object) -> str:
     frame = query.inspector().GetFrameId(geometry)  # type: ignore[arg-type]
     body = alone.plant.GetBodyFromFrameId(frame)
     assert body is not None

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from pydrake.geometry import CollisionFilterDeclaration, GeometrySet
 
-from diagrams.self_distance import RobotAlone, least_self_distance, robot_alone
+from diagrams.self_distance import LoneRobot, least_self_distance, lone_robot
 from models.jvrc1 import JVRC1
 from systems.ports import Vector
 
@@ -12,9 +12,9 @@ SHINS = ("L_KNEE_S", "R_KNEE_S")
 
 
 @pytest.fixture
-def shins() -> RobotAlone:
+def shins() -> LoneRobot:
     """The robot, of which the two shins alone may collide."""
-    alone = robot_alone(JVRC1)
+    alone = lone_robot(JVRC1)
     inspector = alone.scene_graph.model_inspector()
     every = GeometrySet(inspector.GetAllGeometryIds())
     pair = [
@@ -29,7 +29,7 @@ def shins() -> RobotAlone:
     return alone
 
 
-def states(alone: RobotAlone, rolls: list[float]) -> Vector:
+def states(alone: LoneRobot, rolls: list[float]) -> Vector:
     """The robot with its left hip rolled, a row each."""
     context = alone.plant.CreateDefaultContext()
     rows = []
@@ -39,7 +39,7 @@ def states(alone: RobotAlone, rolls: list[float]) -> Vector:
     return np.array(rows)
 
 
-def test_the_nearest_pair_is_named_with_its_time(shins: RobotAlone) -> None:
+def test_the_nearest_pair_is_named_with_its_time(shins: LoneRobot) -> None:
     """A leg that swings in comes nearer, in the end through the other."""
     near = least_self_distance(
         shins, np.array([0.0, 0.1, 0.2]), states(shins, [0.0, -0.12, 0.0])
@@ -55,7 +55,7 @@ def test_the_nearest_pair_is_named_with_its_time(shins: RobotAlone) -> None:
     assert inside.distance < near.distance
 
 
-def test_bodies_that_may_not_collide_have_no_distance(shins: RobotAlone) -> None:
+def test_bodies_that_may_not_collide_have_no_distance(shins: LoneRobot) -> None:
     """Nor have those that are far from each other."""
     assert least_self_distance(shins, np.array([0.0]), states(shins, [0.5])) is None
     filters = shins.scene_graph.collision_filter_manager()
