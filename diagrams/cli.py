@@ -33,9 +33,9 @@ app = typer.Typer(
     name="footfall",
     help="Humanoids that see stairs, obstacles and clutter, and walk them, simulated "
     "closed loop with Drake.",
-    epilog="Exit status: 0 the task was done; 1 it was not (fell, infeasible, timed "
-    "out), or its folder could not be written; 2 bad input; 130 or 143 when Ctrl-C or "
-    "SIGTERM ended it.",
+    epilog="Exit status: 0 the task was done; 1 it was not (failed, fell, infeasible, "
+    "timed out, cut), or its folder could not be written; 2 bad input; 130 and 143 "
+    "interrupted by Ctrl-C and SIGTERM.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,

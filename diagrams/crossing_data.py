@@ -10,10 +10,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from diagrams.crossing_judge import BOX_PREFIX, SAME
+from diagrams.crossing_judge import SAME
 from diagrams.obstacle_crossing import planning_body
 from diagrams.run_data import RunData
 from diagrams.station import robot_alone
+from models.solid_names import is_box
 from models.solids import Box
 from systems.obstacle_values import KeyConfiguration, Obstacle, across
 from systems.planning.crossing_motion import plan_crossing
@@ -189,7 +190,7 @@ class CrossingData:
         boxes = [
             solid
             for solid in self.data.run.scenario.scene.solids()
-            if solid.name.startswith(BOX_PREFIX)
+            if is_box(solid.name)
         ]
         distances = [
             float(np.linalg.norm(box.X_WB.translation()[:2] - obstacle.center))

@@ -1,6 +1,6 @@
 """What an obstacle crossing is measured by, from the truth of the plant."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -15,8 +15,6 @@ from systems.planning.crossing_report import CrossingReport
 from systems.ports import Vector
 from systems.values import FEET, Foot, Json, to_json
 
-BOX_PREFIX = "box/"
-"""What the names of obstacles begin with."""
 LANDING_TIME = 0.05
 """After touch-down a foot's force counts as impact for this long, s; later it is the
 weight that the robot puts on it."""
@@ -44,8 +42,9 @@ class CrossingMeasures:
 
     time: float
     """From the first foot's lift-off to the second's touch-down: phases 1 to 3, s."""
-    impact: float
-    """Largest force on a crossing foot as it lands, in body weights."""
+    impact: float | None
+    """Largest mean upward force on a crossing foot as it lands, in body weights; None
+    where it was not measured."""
 
 
 def midpoints(motion: TrueMotion) -> Vector:
@@ -56,37 +55,62 @@ def midpoints(motion: TrueMotion) -> Vector:
 
 
 def measure_crossing(
-    motion: TrueMotion, forces: dict[Foot, Vector], weight: float, box: Box
+    motion: TrueMotion,
+    loads: Mapping[Foot, Vector],
+    felt: Mapping[Foot, Vector] | None,
+    weight: float,
+    box: Box,
 ) -> CrossingMeasures | None:
     """Phases 1 to 3 over one box; None where not both feet crossed it.
 
+    A foot that passes beside the box's end has not crossed it.
+
     Args:
         motion: where the feet truly were.
-        forces: total contact force on each foot, (n,), N.
+        loads: upward force on each foot, (n,), N.
+        felt: the same averaged over the time that impacts are, (n,), N; None where it
+            was not measured.
         weight: of the robot, N.
         box: which.
     """
     lifts, lands, impacts = [], [], []
+    crossed_by: set[Foot] = set()
     for foot in FEET:
         p_W = motion.X_WF[foot][:, :3, 3]
         p_B = np.array(box.X_WB.inverse().multiply(p_W.T)).T
-        axis = int(np.argmin(box.size[:2]))
-        intervals = contact_intervals(forces[foot], weight)
+        thin = int(np.argmin(box.size[:2]))
+        intervals = contact_intervals(loads[foot], weight)
         for before, after in pairwise(intervals):
             # A foot may stand long before it is loaded, where the robot goes slowly.
-            in_air = forces[foot][before.end : after.start + 1]
+            in_air = loads[foot][before.end : after.start + 1]
             start = before.end - 1
             end = before.end + int(np.argmax(in_air > LIFTED * weight))
-            if p_B[start, axis] * p_B[end, axis] < 0.0:
+            if _passes_over(p_B[start : end + 1], thin, box):
+                crossed_by.add(foot)
                 lifts.append(float(motion.time[start]))
                 lands.append(float(motion.time[end]))
                 landing = (motion.time >= motion.time[end]) & (
                     motion.time <= motion.time[end] + LANDING_TIME
                 )
-                impacts.append(float(forces[foot][landing].max() / weight))
-    if len(lifts) < 2:
+                if felt is not None:
+                    impacts.append(float(felt[foot][landing].max() / weight))
+    if len(crossed_by) < len(FEET):
         return None
-    return CrossingMeasures(max(lands) - min(lifts), max(impacts))
+    return CrossingMeasures(max(lands) - min(lifts), max(impacts) if impacts else None)
+
+
+def _passes_over(p_B: Vector, thin: int, box: Box) -> bool:
+    """Whether a path in the box's frame, (n, 3), leads across it and not past its end.
+
+    Args:
+        p_B: m.
+        thin: the axis across the box.
+        box: which.
+    """
+    if not p_B[0, thin] * p_B[-1, thin] < 0.0:
+        return False
+    middle = int(np.argmin(np.abs(p_B[:, thin])))
+    return bool(abs(p_B[middle, 1 - thin]) <= box.size[1 - thin] / 2.0)
 
 
 def obstacles_crossed(motion: TrueMotion, boxes: Sequence[Box]) -> int:

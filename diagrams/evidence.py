@@ -11,9 +11,11 @@ from pydrake.multibody.tree import ModelInstanceIndex
 from pydrake.systems.framework import Context
 
 from diagrams.box_clearance import box_clearances
-from diagrams.crossing_judge import BOX_PREFIX, CrossingEvidence
+from diagrams.crossing_judge import CrossingEvidence
+from diagrams.self_distance import SelfDistance, least_self_distance, lone_robot
 from diagrams.task_diagram import TaskDiagram
 from diagrams.true_motion import TrueMotion, true_motion
+from models.solid_names import is_box, is_ground
 from models.staircase import Tread
 from systems.obstacle_values import ObstacleMap
 from systems.planning.crossing_report import CrossingMotion
@@ -52,6 +54,8 @@ class Evidence:
     stop: Stop
     stop_reason: str
     """In one line."""
+    kind: str
+    """What the task was, one of `task_params.TASKS`; any other is to stand."""
     motion: TrueMotion
     joint_velocities: Mapping[str, Vector]
     """By joint, (n,) at `motion.time`, rad/s."""
@@ -60,10 +64,15 @@ class Evidence:
     treads: tuple[Tread, ...]
     """The true treads, lowest first; empty without a staircase."""
     limits: Limits
+    friction: float
+    """Least coefficient between the soles and what they may stand on."""
     goal: tuple[float, float, float] | None = None
     """Where the midpoint of the feet was to come to, x, y, yaw, m and rad."""
     touches: tuple[Touch, ...] | None = None
-    """What of the robot but its soles met the staircase; None where unknown."""
+    """What the robot met that it must not, of the scene and of itself; None where
+    unknown."""
+    self_distance: SelfDistance | None = None
+    """The nearest that two of its bodies came; None where far apart or unknown."""
     activities: tuple[tuple[float, str], ...] | None = None
     """When, s, the executive turned to what; None where that was not logged."""
     segmentations: tuple[PlaneSegmentation, ...] = ()
@@ -109,13 +118,18 @@ def gather(
     return Evidence(
         stop=stop,
         stop_reason=stop_reason,
+        kind=task.kind,
         motion=true_motion(task.plant, task.robot_instance, task.robot, time, state),
         joint_velocities=joint_velocities(task.plant, task.robot_instance, state),
         frames=frames,
         treads=task.scene.treads(),
         limits=robot_limits(task.plant, task.robot_instance),
+        friction=min(
+            solid.friction for solid in task.scene.solids() if is_ground(solid.name)
+        ),
         goal=task.goal,
         touches=touches[-1].touches if touches else None,
+        self_distance=least_self_distance(lone_robot(task.robot), time, state),
         activities=tuple(activities) or None,
         segmentations=tuple(
             entry.value
@@ -141,9 +155,7 @@ def _crossing(
     maps = [value for value in values if isinstance(value, ObstacleMap)]
     if not maps:
         return None
-    boxes = tuple(
-        solid for solid in task.scene.solids() if solid.name.startswith(BOX_PREFIX)
-    )
+    boxes = tuple(solid for solid in task.scene.solids() if is_box(solid.name))
     return CrossingEvidence(
         boxes,
         box_clearances(task.plant, task.robot_instance, task.robot, time, state, boxes),

@@ -1,6 +1,7 @@
 """What a run's evidence amounts to: every figure of a judgement, None where unknown."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -13,17 +14,42 @@ from diagrams.crossing_judge import (
     planning_summary,
 )
 from diagrams.evidence import Evidence
+from diagrams.falls import Fall, find_fall
+from diagrams.ground import FLOOR, Ground, stands_flat, tread_ground
 from diagrams.measures import (
     contact_intervals,
     foot_slip,
-    measured_zmp,
     nosings,
-    stands_on,
     swing_clearance,
     zmp_margins,
 )
+from diagrams.rest import true_dcm
+from diagrams.static_margin import static_margins
+from diagrams.true_motion import TrueMotion
+from models.staircase import Tread
 from systems.ports import Vector
+from systems.sensing.contact_monitor import LOADED
+from systems.sensing.measured_zmp import measured_zmp
 from systems.values import FEET, Foot
+
+CLIMBING = "stair_climbing"
+"""The kind of task that ends on the top tread; every other ends on the floor."""
+RESTED = 0.2
+"""For so long on end, s, a sole is flat and loaded on a tread that it rests on."""
+EDGE = 0.02
+"""Before its first sample and after its last a signal is taken as it was there for no
+longer than this, s."""
+
+
+def task_treads(evidence: Evidence) -> tuple[Tread, ...]:
+    """The treads of the staircase that was to be climbed; none in another task."""
+    return evidence.treads if evidence.kind == CLIMBING else ()
+
+
+def last_ground(evidence: Evidence) -> Ground:
+    """What both soles should stand on in the end: the top tread, or the floor."""
+    treads = task_treads(evidence)
+    return tread_ground(treads[-1], "the top tread") if treads else FLOOR
 
 
 def goal_error(evidence: Evidence) -> tuple[float, float]:
@@ -47,10 +73,36 @@ def foot_wrenches(evidence: Evidence) -> dict[Foot, Vector] | None:
 
 
 def _at(time: Vector, frame: pd.DataFrame) -> Vector:
-    """A signal's columns at other times, (n, columns)."""
+    """A signal's columns at other times, (n, columns); nan where it was not logged."""
     samples = frame.to_numpy(dtype=np.float64)
+    if not len(samples):
+        return np.full((len(time), samples.shape[1] - 1), np.nan)
     columns = [np.interp(time, samples[:, 0], column) for column in samples[:, 1:].T]
-    return np.stack(columns, axis=1)
+    values: Vector = np.stack(columns, axis=1)
+    values[(time < samples[0, 0] - EDGE) | (time > samples[-1, 0] + EDGE)] = np.nan
+    return values
+
+
+def foot_loads(evidence: Evidence) -> dict[Foot, Vector] | None:
+    """Upward force on each foot at `motion.time`, (n,), N; None where unknown."""
+    wrenches = foot_wrenches(evidence)
+    if wrenches is None:
+        return None
+    return {
+        foot: _normal_force(evidence, foot, wrench) for foot, wrench in wrenches.items()
+    }
+
+
+def fall(evidence: Evidence) -> Fall | None:
+    """The first sign of a fall; None where there is none."""
+    frame = evidence.frames.get("contact_monitor.other_support")
+    if frame is None:
+        nothing: Vector = np.zeros(0)
+        return find_fall(evidence.motion, nothing, nothing)
+    samples = frame.to_numpy(dtype=np.float64)
+    return find_fall(
+        evidence.motion, samples[:, 0], samples[:, 1] / evidence.limits.weight
+    )
 
 
 def _normal_force(evidence: Evidence, foot: Foot, wrench: Vector) -> Vector:
@@ -88,24 +140,32 @@ def footsteps(evidence: Evidence, contacts: dict[Foot, list[tuple[int, int]]]) -
     return count
 
 
-def steps_climbed(
-    evidence: Evidence, contacts: dict[Foot, list[tuple[int, int]]] | None
-) -> int | None:
-    """The highest tread that both feet have come to stand on or above."""
-    if not evidence.treads or contacts is None:
+def steps_climbed(evidence: Evidence, loads: dict[Foot, Vector] | None) -> int | None:
+    """The highest tread that both feet have come to rest on or above before any fall.
+
+    None where no stairs were to be climbed or the loads are not known.
+    """
+    treads = task_treads(evidence)
+    if not treads or loads is None:
         return None
+    fallen = fall(evidence)
+    end = np.inf if fallen is None else fallen.time
     reached = []
-    for foot, intervals in contacts.items():
-        # The end of a contact may be a lifted heel, its start an impact.
-        samples = {index for start, end in intervals for index in range(start, end, 5)}
-        samples |= {end - 1 for _, end in intervals}
+    for foot in FEET:
+        loaded = (loads[foot] > LOADED * evidence.limits.weight) & (
+            evidence.motion.time < end
+        )
         corners = evidence.motion.sole_corners[foot]
         reached.append(
             max(
                 (
                     number
-                    for number, tread in enumerate(evidence.treads, start=1)
-                    if any(stands_on(corners[index], tread) for index in samples)
+                    for number, tread in enumerate(treads, start=1)
+                    if _longest(
+                        evidence.motion.time,
+                        loaded & stands_flat(corners, tread_ground(tread, tread.name)),
+                    )
+                    >= RESTED
                 ),
                 default=0,
             )
@@ -113,38 +173,11 @@ def steps_climbed(
     return min(reached)
 
 
-def joint_torques(evidence: Evidence) -> dict[str, Vector]:
-    """Applied torques by joint, (n,) each, Nm; empty where they were not logged.
-
-    Raises:
-        ValueError: the log has another number of columns than there are actuators.
-    """
-    frame = evidence.frames.get("plant.net_actuation")
-    if frame is None:
-        return {}
-    torques = frame.to_numpy(dtype=np.float64)[:, 1:]
-    joints = list(evidence.limits.torque)
-    if len(joints) != torques.shape[1]:
-        raise ValueError(
-            f"plant.net_actuation has {torques.shape[1]} columns, expected one for "
-            f"each of {len(joints)} actuators"
-        )
-    return dict(zip(joints, torques.T, strict=True))
-
-
-def worst_fraction(
-    values: Mapping[str, Vector], limits: Mapping[str, float]
-) -> tuple[float | None, str | None]:
-    """The largest share of its limit that a joint reached, and which joint."""
-    fractions = {
-        joint: float(np.abs(series).max() / limits[joint])
-        for joint, series in values.items()
-        if len(series)
-    }
-    if not fractions:
-        return None, None
-    joint = max(fractions, key=fractions.__getitem__)
-    return fractions[joint], joint
+def _longest(time: Vector, holds: np.ndarray[tuple[int], np.dtype]) -> float:
+    """For how long on end something held at the most, s."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], holds, [False]])))
+    spans = [time[end - 1] - time[start] for start, end in edges.reshape(-1, 2)]
+    return float(max(spans, default=0.0))
 
 
 def largest_slip(
@@ -169,45 +202,67 @@ def min_zmp_margin(
     if wrenches is None:
         return None
     motion, weight = evidence.motion, evidence.limits.weight
-    left, right = wrenches["left"], wrenches["right"]
-    zmp = measured_zmp(
-        (motion.X_WF["left"], motion.X_WF["right"]), (left, right), weight
-    )
+    zmp = zmp_of_feet(motion, wrenches, weight)
+    corners, left, right = motion.sole_corners, wrenches["left"], wrenches["right"]
     margins = zmp_margins(
-        zmp,
-        (motion.sole_corners["left"], motion.sole_corners["right"]),
-        (left[:, 2], right[:, 2]),
-        weight,
+        zmp, (corners["left"], corners["right"]), (left[:, 2], right[:, 2]), weight
     )
     finite = margins[np.isfinite(margins)]
     return float(finite.min()) if len(finite) else None
 
 
-def min_static_margin(evidence: Evidence) -> float | None:
+def zmp_of_feet(
+    motion: TrueMotion, wrenches: Mapping[Foot, Vector], weight: float
+) -> Vector:
+    """The measured ZMP, (n, 2), m; nan while the feet bear less than a fifth.
+
+    Args:
+        motion: n samples.
+        wrenches: on each foot, in its F, (n, 6), N and Nm.
+        weight: of the robot, N.
+    """
+    poses = np.stack([motion.X_WF[foot] for foot in FEET], axis=1)
+    both = np.stack([wrenches[foot] for foot in FEET], axis=1)
+    return measured_zmp(poses, both, LOADED * weight)[:, :2]
+
+
+def min_static_margin(
+    evidence: Evidence, loads: dict[Foot, Vector] | None
+) -> float | None:
     """Least distance of the true CoM to the edge of the static-stability polygon, m."""
-    frame = evidence.frames.get("static_stability.margin")
-    if frame is None:
+    if loads is None:
         return None
-    margins = frame.to_numpy(dtype=np.float64)[:, 1]
+    margins = static_margins(
+        evidence.motion, loads, evidence.limits.weight, evidence.friction
+    )
     finite = margins[np.isfinite(margins)]
     return float(finite.min()) if len(finite) else None
 
 
-def largest_force(
-    evidence: Evidence, wrenches: dict[Foot, Vector] | None
-) -> float | None:
-    """The largest force on one foot, in body weights."""
-    if wrenches is None:
+def _largest(evidence: Evidence, signal: str) -> float | None:
+    """The largest value of a signal; None where it was not logged."""
+    frame = evidence.frames.get(signal)
+    if frame is None or not len(frame):
         return None
-    forces = [np.linalg.norm(wrench[:, :3], axis=1) for wrench in wrenches.values()]
-    return float(np.max(forces) / evidence.limits.weight)
+    return float(frame.to_numpy(dtype=np.float64)[:, 1:].max())
+
+
+def largest_impact(evidence: Evidence) -> float | None:
+    """The largest mean upward force on one foot, in body weights."""
+    force = _largest(evidence, "contact_monitor.impact")
+    return None if force is None else force / evidence.limits.weight
+
+
+def largest_friction_ratio(evidence: Evidence) -> float | None:
+    """The largest mean horizontal over mean upward force of a loaded foot."""
+    return _largest(evidence, "contact_monitor.friction_ratio")
 
 
 def least_clearance(
     evidence: Evidence, wrenches: dict[Foot, Vector] | None
 ) -> float | None:
     """Least distance of a swinging sole to the edge of a tread, m."""
-    edges = nosings(evidence.treads)
+    edges = nosings(task_treads(evidence))
     clearances = [
         swing_clearance(
             evidence.motion.sole_corners[foot],
@@ -227,17 +282,15 @@ def crossing_figures(
     crossing = evidence.crossing
     if crossing is None:
         return {"min_clearance_m": least_clearance(evidence, wrenches)}
-    forces = {
-        foot: np.linalg.norm(wrench[:, :3], axis=1)
-        for foot, wrench in (wrenches or {}).items()
-    }
+    loads = foot_loads(evidence)
+    felt = _felt(evidence)
     measured = [
         found
         for box in crossing.boxes
-        if forces
+        if loads is not None
         and (
             found := measure_crossing(
-                evidence.motion, forces, evidence.limits.weight, box
+                evidence.motion, loads, felt, evidence.limits.weight, box
             )
         )
     ]
@@ -248,10 +301,20 @@ def crossing_figures(
         "obstacles_crossed": obstacles_crossed(evidence.motion, crossing.boxes),
         "crossing_time_s": max((item.time for item in measured), default=None),
         "crossing_impact_body_weights": max(
-            (item.impact for item in measured), default=None
+            (item.impact for item in measured if item.impact is not None),
+            default=None,
         ),
         "crossing": planning_summary(crossing.reports),
     }
+
+
+def _felt(evidence: Evidence) -> dict[Foot, Vector] | None:
+    """Mean upward force on each foot at `motion.time`, (n,), N."""
+    frame = evidence.frames.get("contact_monitor.foot_forces")
+    if frame is None:
+        return None
+    both = _at(evidence.motion.time, frame)
+    return {"left": both[:, 2], "right": both[:, 5]}
 
 
 def _reference(evidence: Evidence, port: str) -> pd.DataFrame | None:
@@ -273,13 +336,18 @@ def com_error(evidence: Evidence) -> float | None:
 
 
 def dcm_error(evidence: Evidence) -> float | None:
-    """Largest horizontal distance of the measured DCM to its reference."""
-    measured = evidence.frames.get("balance_state.dcm")
-    wanted = _reference(evidence, "dcm")
-    if measured is None or wanted is None:
+    """Largest horizontal distance of the true DCM to that of the reference."""
+    frame = _reference(evidence, "com")
+    if frame is None or frame.shape[1] < 1 + 6:
         return None
-    time = evidence.motion.time
-    difference = _at(time, measured)[:, :2] - _at(time, wanted)[:, :2]
+    motion = evidence.motion
+    wanted = _at(motion.time, frame)
+    reference = replace(
+        motion,
+        com=np.column_stack([wanted[:, :2], motion.com[:, 2]]),
+        com_velocity=wanted[:, 3:6],
+    )
+    difference = true_dcm(motion) - true_dcm(reference)
     return float(np.linalg.norm(difference, axis=1).max())
 
 
@@ -287,12 +355,14 @@ def climb_time(
     evidence: Evidence, contacts: dict[Foot, list[tuple[int, int]]] | None
 ) -> float | None:
     """Time spent moving, not scanning or thinking, until the last touch-down on top."""
-    if contacts is None or evidence.activities is None or not evidence.treads:
+    treads = task_treads(evidence)
+    if contacts is None or evidence.activities is None or not treads:
         return None
+    top = tread_ground(treads[-1], "the top tread")
     arrivals = []
     for foot, intervals in contacts.items():
         corners = evidence.motion.sole_corners[foot]
-        if not intervals or not stands_on(corners[-1], evidence.treads[-1]):
+        if not intervals or not stands_flat(corners[-1:], top)[0]:
             return None
         arrivals.append(float(evidence.motion.time[intervals[-1][0]]))
     starts = [time for time, _ in evidence.activities]

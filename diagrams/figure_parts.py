@@ -5,7 +5,8 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from diagrams.measures import LIFTED, measured_zmp
+from diagrams.evidence_measures import zmp_of_feet
+from diagrams.measures import LIFTED
 from diagrams.run_data import RunData
 from systems.ports import Vector
 from systems.values import FEET, Foot
@@ -89,12 +90,7 @@ def true_zmp(data: RunData) -> Vector | None:
     """The ZMP from the true contact wrenches, (n, 2), m; None without them."""
     if data.wrenches is None:
         return None
-    poses, wrenches = data.motion.X_WF, data.wrenches
-    return measured_zmp(
-        (poses["left"], poses["right"]),
-        (wrenches["left"], wrenches["right"]),
-        data.limits.weight,
-    )
+    return zmp_of_feet(data.motion, data.wrenches, data.limits.weight)
 
 
 def support_edges(data: RunData, direction: Vector) -> tuple[Vector, Vector]:

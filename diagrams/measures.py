@@ -12,16 +12,10 @@ import shapely  # type: ignore[import-untyped]
 
 from models.staircase import Tread
 from systems.ports import Vector
+from systems.sensing.contact_monitor import LOADED
 
-LOADED = 0.20
-"""Share of the weight above which a foot counts as loaded."""
 LIFTED = 0.02
 """Share of the weight below which a foot counts as off the ground."""
-SOLE_ON_TREAD = 0.75
-"""Share of a sole's area that must lie over a tread for it to stand there; a heel may
-overhang, as climbing a high step with short treads requires."""
-HEIGHT_TOLERANCE = 0.01
-"""How far the corners of a standing sole may be above or below its tread, m."""
 LIFTED_CORNER = 0.01
 """Height above a sole's lowest corner from which a corner bears nothing, m."""
 
@@ -76,43 +70,6 @@ def foot_slip(corners: Vector, normal_force: Vector, weight: float) -> float | N
     return max(slips, default=None)
 
 
-def foot_zmp(X_WF: Vector, wrench_F: Vector) -> Vector:
-    """Centre of pressure of one foot in W, (n, 3), m; meaningless where unloaded.
-
-    Args:
-        X_WF: pose of the sole frame, (n, 4, 4).
-        wrench_F: force then moment about F's origin, in F, (n, 6), N and Nm.
-    """
-    force = np.where(np.abs(wrench_F[:, 2]) > 1e-9, wrench_F[:, 2], 1e-9)
-    zeros = np.zeros(len(force))
-    p_F = np.stack([-wrench_F[:, 4] / force, wrench_F[:, 3] / force, zeros], axis=1)
-    zmp: Vector = X_WF[:, :3, 3] + np.einsum("nij,nj->ni", X_WF[:, :3, :3], p_F)
-    return zmp
-
-
-def measured_zmp(
-    X_WF: tuple[Vector, Vector], wrenches_F: tuple[Vector, Vector], weight: float
-) -> Vector:
-    """The feet's centres of pressure weighted by their loads, (n, 2), m.
-
-    On soles at different heights the ZMP has no plane of its own; the weighted mean is
-    what stabilisers on stairs use. nan where neither foot is loaded.
-
-    Args:
-        X_WF: poses of the left and the right sole frame, (n, 4, 4) each.
-        wrenches_F: force then moment on each foot, in its F, (n, 6), N and Nm.
-        weight: of the robot, N.
-    """
-    total, moment = np.zeros(len(X_WF[0])), np.zeros((len(X_WF[0]), 2))
-    for pose, wrench in zip(X_WF, wrenches_F, strict=True):
-        load = np.where(wrench[:, 2] > LIFTED * weight, wrench[:, 2], 0.0)
-        total += load
-        moment += load[:, None] * foot_zmp(pose, wrench)[:, :2]
-    total[total < LOADED * weight] = np.nan
-    zmp: Vector = moment / total[:, None]
-    return zmp
-
-
 def zmp_margins(
     zmp: Vector,
     corners: tuple[Vector, Vector],
@@ -153,22 +110,6 @@ def zmp_margins(
     inside = areas & shapely.contains(hulls, places)
     margins[valid] = np.where(inside, distances, -distances)
     return margins
-
-
-def stands_on(corners: Vector, tread: Tread) -> bool:
-    """Whether a sole rests on a tread: at its height and with its area over it.
-
-    Args:
-        corners: of the sole, (4, 3), m.
-        tread: the true tread.
-    """
-    p_R = np.array(tread.X_WR.inverse().multiply(corners.T)).T
-    if np.abs(p_R[:, 2]).max() > HEIGHT_TOLERANCE:
-        return False
-    half = tread.size / 2.0
-    sole = shapely.Polygon(p_R[:, :2])
-    over = sole.intersection(shapely.box(-half[0], -half[1], half[0], half[1])).area
-    return bool(over >= SOLE_ON_TREAD * sole.area)
 
 
 def nosings(treads: tuple[Tread, ...]) -> list[Vector]:

@@ -7,7 +7,7 @@ from pydrake.systems.framework import DiagramBuilder
 from pydrake.systems.primitives import ConstantVectorSource
 
 from diagrams.scenario import ROBOTS, Scenario
-from diagrams.station import FURNITURE, add_lidar, add_station
+from diagrams.station import add_lidar, add_station
 from diagrams.task_diagram import TaskDiagram, build_diagram
 from diagrams.walking import add_walking, initial_stand
 from diagrams.walking_signals import VALUE_PERIOD, record_walking
@@ -52,9 +52,7 @@ def build_obstacle_crossing(
     robot = ROBOTS[scenario.robot.name]
     builder = DiagramBuilder()
 
-    station = add_station(
-        builder, scenario, robot, params.control_period, FURNITURE, soles_allowed=False
-    )
+    station = add_station(builder, scenario, robot, params.control_period)
     lidar, assembler = add_lidar(builder, scenario, station)
     finder = add_system(
         builder,

@@ -8,45 +8,44 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-import numpy as np
-
-from diagrams.evidence import Evidence
+from diagrams.evidence import Evidence, Stop
 from diagrams.evidence_measures import (
+    CLIMBING,
     climb_time,
     com_error,
     crossing_figures,
     dcm_error,
+    fall,
     foot_contacts,
+    foot_loads,
     foot_wrenches,
     footsteps,
     goal_error,
-    joint_torques,
-    largest_force,
+    largest_friction_ratio,
+    largest_impact,
     largest_slip,
+    last_ground,
     min_static_margin,
     min_zmp_margin,
     steps_climbed,
+)
+from diagrams.falls import Fall
+from diagrams.joint_figures import (
+    by_joint,
+    joint_peaks,
+    sample_period,
+    time_at_limit,
     worst_fraction,
 )
-from diagrams.measures import stands_on
-from diagrams.true_motion import TrueMotion
+from diagrams.rest import rest_faults, rest_figures
+from diagrams.rules import SLIP_MENTIONED, broken_rules
 from systems.ports import Vector
-from systems.values import FEET, Json
+from systems.values import Foot, Json
 
 Outcome: TypeAlias = Literal[
-    "completed", "fell", "infeasible", "timed_out", "interrupted", "cut"
+    "completed", "failed", "fell", "infeasible", "timed_out", "interrupted", "cut"
 ]
-FALLEN_HEIGHT = 0.6
-"""A robot has fallen when its base is lower above the lower foot than this share of
-where it began."""
-FALLEN_TILT = np.deg2rad(60.0)
-"""A robot has fallen when its torso leans more than this, rad."""
-FOOT_SLIP_TOLERANCE = 0.01
-"""Slip that the reason mentions, m."""
-GOAL_DISTANCE = 0.10
-"""Within this the robot is at its goal, m."""
-GOAL_TURN = np.deg2rad(10.0)
-"""Within this it faces as it should there, rad."""
+"""What can become of a task; see `judge`."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,86 +59,100 @@ class Judgement:
     steps_climbed: int | None = None
     max_torque_fraction: float | None = None
     max_torque_joint: str | None = None
+    torque_limit_s: float | None = None
+    """For how long any joint's torque was at its limit, where the plant clips it."""
+    torque_limit_joint: str | None = None
+    """Which joint's was most often."""
+    max_wanted_torque_fraction: float | None = None
+    """Largest torque that a servo wanted, before clipping, over its limit."""
+    max_wanted_torque_joint: str | None = None
     max_speed_fraction: float | None = None
     max_speed_joint: str | None = None
     min_zmp_margin_m: float | None = None
     min_static_margin_m: float | None = None
     """Least signed distance of the true CoM to the edge of the static-stability polygon
-    of the soles that stand; below zero while a dynamic motion passes over an edge."""
+    of the soles that truly bear weight; below zero while a dynamic motion passes over
+    an edge."""
     max_dcm_error_m: float | None = None
     com_rms_error_m: float | None = None
     max_foot_slip_m: float | None = None
     max_impact_body_weights: float | None = None
+    """Largest upward force on a foot, averaged over 10 ms."""
+    max_friction_ratio: float | None = None
+    """Largest horizontal over upward force of a loaded foot, both averaged over
+    10 ms."""
+    min_self_distance_m: float | None = None
+    """Nearest that two of the robot's own bodies came; None where none came near."""
+    min_self_distance_bodies: tuple[str, str] | None = None
     min_clearance_m: float | None = None
     goal_error_m: float | None = None
     """Horizontal distance of the feet's midpoint to the goal at the end."""
     goal_turn_rad: float | None = None
     """How far the feet's mean heading is from the goal's at the end."""
     climb_time_s: float | None = None
-    """From the first motion until the last foot came to stand on the top tread,
-    without the time spent scanning and planning."""
+    """From the first motion until the last foot came to stand on the top tread: the
+    time spent moving alone, without scanning, planning and coming to rest."""
     obstacles_crossed: int | None = None
     crossing_time_s: float | None = None
     """Phases 1 to 3 over an obstacle, the longest: from the first foot's lift-off to
-    the second's touch-down."""
+    the second's touch-down, all that the robot does in between included."""
     crossing_impact_body_weights: float | None = None
-    """Largest force on a foot as it lands beyond an obstacle."""
+    """Largest upward force, averaged over 10 ms, on a foot as it lands beyond an
+    obstacle."""
     min_clearance_body: str | None = None
     """Which part of the robot came nearest to an obstacle."""
     crossing: Mapping[str, Json] | None = None
     """What the planner says of its crossings."""
 
 
-def has_fallen(base_height: float, initial_height: float, torso_up: float) -> bool:
-    """Whether the robot lies or is about to.
-
-    Args:
-        base_height: of the base above the lower foot, m.
-        initial_height: the same at the start, m.
-        torso_up: cosine of the torso's angle to the vertical.
-    """
-    low = base_height < FALLEN_HEIGHT * initial_height
-    return low or torso_up < np.cos(FALLEN_TILT)
-
-
-def base_height(motion: TrueMotion) -> Vector:
-    """Height of the base above the lower foot, (n,), m."""
-    feet = np.stack([motion.X_WF[foot][:, 2, 3] for foot in FEET])
-    height: Vector = motion.base[:, 2] - feet.min(axis=0)
-    return height
-
-
 def judge(evidence: Evidence) -> Judgement:
     """Measures the run and says what became of the task.
 
-    "completed": the executive finished, both soles rest on the top tread (where there
-    is a staircase), the robot stands, no joint went faster than its limit and nothing
-    but soles touched the staircase. "fell": see `has_fallen`. "infeasible": the
-    executive gave up, or finished without all of the above. "timed_out": the time was
-    up, or the solver gave up on a robot that stood. "interrupted": a signal ended the
-    run. "cut" is what `load_run` calls a run that was never judged.
+    - "completed": the executive finished, the robot came to rest where the task ends
+      (see `rest_faults`) and no rule was broken (see `broken_rules`).
+    - "failed": the executive finished, but it did not rest or a rule was broken.
+    - "fell": at any time (see `find_fall`).
+    - "infeasible": a planner refused.
+    - "timed_out": the time was up.
+    - "interrupted": the user ended it.
+    - "cut": the simulation broke off, or its process was killed.
+
+    The reason of a run that did not finish also names the rules that it broke.
     """
     wrenches = foot_wrenches(evidence)
+    loads = foot_loads(evidence)
     contacts = foot_contacts(evidence, wrenches)
-    torque = worst_fraction(joint_torques(evidence), evidence.limits.torque)
-    speed = worst_fraction(evidence.joint_velocities, evidence.limits.speed)
+    limits, state_period = evidence.limits, sample_period(evidence)
+    torques = by_joint(evidence, "plant.net_actuation")
+    torque = worst_fraction(torques, limits.torque)
+    wanted = worst_fraction(by_joint(evidence, "station.torque_wanted"), limits.torque)
+    clipped = time_at_limit(torques, limits.torque, state_period)
+    speed = worst_fraction(joint_peaks(evidence), limits.speed)
     slip = largest_slip(evidence, wrenches)
-    outcome, reason = _verdict(evidence, speed, slip)
+    outcome, reason = _verdict(evidence, loads, speed, slip)
+    nearest = evidence.self_distance
     return Judgement(
         outcome=outcome,
         reason=reason,
         footsteps=None if contacts is None else footsteps(evidence, contacts),
-        steps_climbed=steps_climbed(evidence, contacts),
+        steps_climbed=steps_climbed(evidence, loads),
         max_torque_fraction=torque[0],
         max_torque_joint=torque[1],
+        torque_limit_s=clipped[0],
+        torque_limit_joint=clipped[1],
+        max_wanted_torque_fraction=wanted[0],
+        max_wanted_torque_joint=wanted[1],
         max_speed_fraction=speed[0],
         max_speed_joint=speed[1],
         min_zmp_margin_m=min_zmp_margin(evidence, wrenches),
-        min_static_margin_m=min_static_margin(evidence),
+        min_static_margin_m=min_static_margin(evidence, loads),
         max_dcm_error_m=dcm_error(evidence),
         com_rms_error_m=com_error(evidence),
         max_foot_slip_m=slip,
-        max_impact_body_weights=largest_force(evidence, wrenches),
+        max_impact_body_weights=largest_impact(evidence),
+        max_friction_ratio=largest_friction_ratio(evidence),
+        min_self_distance_m=None if nearest is None else nearest.distance,
+        min_self_distance_bodies=None if nearest is None else nearest.bodies,
         **crossing_figures(evidence, wrenches),
         goal_error_m=None if evidence.goal is None else goal_error(evidence)[0],
         goal_turn_rad=None if evidence.goal is None else goal_error(evidence)[1],
@@ -148,60 +161,48 @@ def judge(evidence: Evidence) -> Judgement:
 
 
 def _verdict(
-    evidence: Evidence, speed: tuple[float | None, str | None], slip: float | None
+    evidence: Evidence,
+    loads: dict[Foot, Vector] | None,
+    speed: tuple[float | None, str | None],
+    slip: float | None,
 ) -> tuple[Outcome, str]:
-    height = base_height(evidence.motion)
-    if evidence.stop == "fell" or has_fallen(
-        height[-1], height[0], evidence.motion.torso_up[-1]
-    ):
-        when = f"at {evidence.motion.time[-1]:.2f} s"
-        return "fell", evidence.stop_reason if evidence.stop == "fell" else (
-            f"the robot fell {when}; {evidence.stop_reason}".rstrip("; ")
-        )
-    if evidence.stop == "infeasible":
-        return "infeasible", evidence.stop_reason
-    if evidence.stop == "interrupted":
-        return "interrupted", evidence.stop_reason
+    fallen = fall(evidence)
+    if fallen is not None or evidence.stop == "fell":
+        return "fell", _fall_reason(evidence, fallen)
+    rules = broken_rules(evidence, speed, slip)
     if evidence.stop != "finished":
-        return "timed_out", evidence.stop_reason
-    faults = _faults(evidence, speed)
-    if faults:
-        return "infeasible", "; ".join(faults)
-    done = "the robot stands"
-    if evidence.treads:
-        done = f"both feet rest on the top tread, number {len(evidence.treads)}"
-    if evidence.goal is not None:
-        done = (
-            f"the robot stands {100.0 * goal_error(evidence)[0]:.1f} cm from the goal"
-        )
-    if slip is not None and slip > FOOT_SLIP_TOLERANCE:
+        reason = "; besides, ".join([evidence.stop_reason, *rules[:1]])
+        return STOPPED[evidence.stop], "; ".join([reason, *rules[1:]])
+    ground = last_ground(evidence)
+    figures = rest_figures(evidence.motion, loads, evidence.limits.weight, ground)
+    unrest = rest_faults(figures, ground)
+    if unrest:
+        rules = [f"the robot did not come to rest: {', '.join(unrest)}", *rules]
+    if rules:
+        return "failed", "; ".join(rules)
+    done = "the robot rests on the floor"
+    if evidence.kind == CLIMBING:
+        done = f"both feet rest on {ground.name}, number {len(evidence.treads)}"
+    elif evidence.goal is not None:
+        done = f"the robot rests {100.0 * goal_error(evidence)[0]:.1f} cm from the goal"
+    if slip is not None and slip > SLIP_MENTIONED:
         done += f"; a loaded foot slid by {1e3 * slip:.0f} mm"
     return "completed", done
 
 
-def _faults(evidence: Evidence, speed: tuple[float | None, str | None]) -> list[str]:
-    """What speaks against a task that the executive calls finished."""
-    faults = []
-    if evidence.treads:
-        faults += [
-            f"the {foot} sole is not on the top tread"
-            for foot in FEET
-            if not stands_on(
-                evidence.motion.sole_corners[foot][-1], evidence.treads[-1]
-            )
-        ]
-    if evidence.goal is not None:
-        distance, turn = goal_error(evidence)
-        if distance > GOAL_DISTANCE:
-            faults.append(f"the robot stands {distance:.2f} m from the goal")
-        if turn > GOAL_TURN:
-            faults.append(f"the robot faces {np.degrees(turn):.0f} deg off the goal's")
-    fraction, joint = speed
-    if fraction is not None and fraction > 1.0:
-        faults.append(f"{joint} went at {fraction:.2f} times its speed limit")
-    for touch in evidence.touches or ():
-        faults.append(
-            f"{touch.body} touched {touch.solid} "
-            f"({1e3 * touch.duration:.0f} ms, up to {touch.peak_force:.0f} N)"
-        )
-    return faults
+STOPPED: dict[Stop, Outcome] = {
+    "infeasible": "infeasible",
+    "time limit": "timed_out",
+    "interrupted": "interrupted",
+    "error": "cut",
+}
+"""What becomes of a task that neither finished nor fell, by why it stopped."""
+
+
+def _fall_reason(evidence: Evidence, fallen: Fall | None) -> str:
+    if fallen is None:
+        return evidence.stop_reason
+    reason = f"the robot fell at {fallen.time:.2f} s: {fallen.how}"
+    if evidence.stop in ("fell", "finished"):
+        return reason
+    return f"{reason}; {evidence.stop_reason}"

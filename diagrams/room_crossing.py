@@ -11,7 +11,7 @@ from pydrake.systems.primitives import ConstantValueSource, ConstantVectorSource
 from diagrams.evidence import MOVERS_SIGNAL
 from diagrams.room_perception import add_perception
 from diagrams.scenario import ROBOTS, Scenario
-from diagrams.station import FURNITURE, add_station
+from diagrams.station import add_station
 from diagrams.task_diagram import TaskDiagram, build_diagram
 from diagrams.walking import add_walking, initial_stand
 from diagrams.walking_signals import SIGNAL_PERIOD, VALUE_PERIOD, record_walking
@@ -44,9 +44,7 @@ def build_room_crossing(
     robot = ROBOTS[scenario.robot.name]
     builder = DiagramBuilder()
 
-    station = add_station(
-        builder, scenario, robot, params.control_period, FURNITURE, soles_allowed=False
-    )
+    station = add_station(builder, scenario, robot, params.control_period)
     frame, environment = add_perception(builder, scenario, station)
 
     goal: Vector = np.array(scenario.task.goal, dtype=np.float64)

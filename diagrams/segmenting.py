@@ -83,7 +83,7 @@ def segment_file(
     result = SegmentedFile(
         points=len(points),
         segmentation=segmentation,
-        doubts=() if segmentation.planes else _doubts(points, gravity, params),
+        doubts=() if segmentation.planes else _doubts(points, gravity, params, sole),
         planes_json=out / "planes.json",
         planes_png=out / "planes.png",
     )
@@ -102,9 +102,9 @@ def segment_file(
 
 
 def _doubts(
-    points: Vector, gravity: Vector, params: PlaneSegmenterParams
+    points: Vector, gravity: Vector, params: PlaneSegmenterParams, sole: Sole
 ) -> tuple[str, ...]:
-    likely = doubt_cloud(points, gravity, params, params.min_voxels())
+    likely = doubt_cloud(points, gravity, params, params.min_voxels(sole))
     return (describe_cloud(points), *likely)
 
 

@@ -13,7 +13,7 @@ from pydrake.systems.framework import Context
 
 from diagrams.crossing_judge import eyes_summary
 from diagrams.evidence import Evidence, Stop, gather
-from diagrams.outcome import Judgement, Outcome, has_fallen, judge
+from diagrams.outcome import Judgement, Outcome, judge
 from diagrams.room_summary import room_perception, stage_ms
 from diagrams.run_folder import RecordingError, begin_run
 from diagrams.scenario import Scenario
@@ -27,10 +27,13 @@ from diagrams.summary import (
     timing_us,
 )
 from diagrams.task_diagram import TaskDiagram
-from systems.values import FEET, Json
+from diagrams.watch import LOOK, RestClock, RobotWatch
+from systems.values import Json
 
-SETTLE_TIME = 0.5
-"""For how long a finished task is watched on, s."""
+REST_WATCH = 5.0
+"""For how long a robot that has finished is given to come to rest, s."""
+FALL_WATCH = 3.0
+"""For how long a robot that falls is watched at the most, until it lies, s."""
 SLICE = 0.05
 """How long the simulation runs between two looks at how it goes, s."""
 FLUSH_PERIOD = 0.5
@@ -120,7 +123,9 @@ def simulate(
 ) -> Simulated:
     """Simulates until the task is over, the robot fell, time is up or Ctrl-C.
 
-    A task that is finished is watched for `SETTLE_TIME` more.
+    A task that is finished is watched until the robot has been at rest for
+    `REST_TIME`, for `REST_WATCH` at the most; a fall until the robot lies, for
+    `FALL_WATCH` at the most.
 
     An exception, of the contact solver or of a System, ends the simulation like a
     fall does; what was logged until then is kept.
@@ -141,8 +146,9 @@ def simulate(
     simulator.set_target_realtime_rate(realtime_rate)
     context = simulator.get_mutable_context()
     stream = task.signals.stream(context, signals_folder) if signals_folder else None
-    watch = _FallWatch(task, context)
-    end, finished = max_time, False
+    watch = RobotWatch(task, context)
+    end, finished, fell = max_time, False, False
+    resting = RestClock()
     stop: Stop = "time limit"
     reason = f"not done after {max_time:g} s"
     error: BaseException | None = None
@@ -151,22 +157,32 @@ def simulate(
         simulator.Initialize()
         while context.get_time() < end - 1e-9:
             slices += 1
-            simulator.AdvanceTo(min(slices * SLICE, end))
-            if stream and context.get_time() > flushed + FLUSH_PERIOD - 1e-9:
-                flushed = context.get_time()
+            until = min(slices * SLICE, end)
+            if finished and not fell:
+                _advance_to_rest(simulator, until, watch, resting)
+            else:
+                simulator.AdvanceTo(until)
+            now, status = context.get_time(), task.task_status(context)
+            if stream and now > flushed + FLUSH_PERIOD - 1e-9:
+                flushed = now
                 with _recorded(stream.folder.parent, flushed):
                     stream.flush()
-            status = task.task_status(context)
             if progress is not None:
-                progress(context.get_time(), status.activity)
-            if watch.fallen():
-                stop, reason = "fell", f"the robot fell at {context.get_time():.2f} s"
-                break
-            if status.state == "infeasible":
+                progress(now, status.activity)
+            if fell:
+                if watch.lies():
+                    break
+            elif (how := watch.fall()) is not None:
+                fell, end = True, now + FALL_WATCH
+                stop, reason = "fell", f"the robot fell at {now:.2f} s: {how}"
+            elif finished:
+                if resting.done():
+                    break
+            elif status.state == "infeasible":
                 stop, reason = "infeasible", status.reason
                 break
-            if status.state == "finished" and not finished:
-                finished, end = True, context.get_time() + SETTLE_TIME
+            elif status.state == "finished":
+                finished, end = True, now + REST_WATCH
                 stop, reason = "finished", status.reason
     except RecordingError:
         raise
@@ -174,10 +190,11 @@ def simulate(
         stop, reason = "interrupted", f"interrupted at {context.get_time():.2f} s"
         error = interrupt
     except Exception as exception:
-        stop, error = "error", exception
+        error = exception
         message = (str(exception).splitlines() or [""])[0]
         what = f"{type(exception).__name__}: {message}"
-        reason = f"the simulation broke off at {context.get_time():.2f} s: {what}"
+        broke = f"the simulation broke off at {context.get_time():.2f} s: {what}"
+        stop, reason = ("fell", f"{reason}; {broke}") if fell else ("error", broke)
     return Simulated(context, stop, reason, perf_counter() - start, error, stream)
 
 
@@ -193,35 +210,14 @@ def _recorded(folder: Path, time: float) -> Iterator[None]:
         ) from error
 
 
-class _FallWatch:
-    """Looks at the true robot while it moves."""
-
-    def __init__(self, task: TaskDiagram, context: Context) -> None:
-        self._plant = task.plant
-        self._context = task.plant.GetMyContextFromRoot(context)
-        robot, instance = task.robot, task.robot_instance
-        self._base = self._plant.GetBodyByName(robot.base_body, instance)
-        self._torso = self._plant.GetBodyByName(robot.torso_body, instance)
-        self._feet = [
-            self._plant.GetBodyByName(robot.foot_bodies[foot], instance)
-            for foot in FEET
-        ]
-        self._ankle_height = robot.sole.ankle_height
-        self._initial = self._height()
-
-    def _height(self) -> float:
-        def z(body: object) -> float:
-            pose = self._plant.EvalBodyPoseInWorld(self._context, body)  # type: ignore[arg-type]
-            return float(pose.translation()[2])
-
-        lowest = min(z(foot) for foot in self._feet) - self._ankle_height
-        return z(self._base) - lowest
-
-    def fallen(self) -> bool:
-        """Whether it lies or is about to."""
-        pose = self._plant.EvalBodyPoseInWorld(self._context, self._torso)
-        up = float(pose.rotation().matrix()[2, 2])
-        return has_fallen(self._height(), self._initial, up)
+def _advance_to_rest(
+    simulator: Simulator, until: float, watch: RobotWatch, resting: RestClock
+) -> None:
+    """Simulates in steps of `LOOK`, as long as the robot has not rested enough."""
+    context = simulator.get_context()
+    while context.get_time() < until - 1e-9 and not resting.done():
+        simulator.AdvanceTo(min(context.get_time() + LOOK, until))
+        resting.look(context.get_time(), watch.rests())
 
 
 def summarize(task: TaskDiagram, scenario: Scenario, simulated: Simulated) -> Summary:

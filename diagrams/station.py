@@ -1,7 +1,6 @@
 """The robot in its scene: plant, joint servos, sensors and what pushes it."""
 
 import dataclasses
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,21 +20,21 @@ from diagrams.wiring import add_system
 from models.mover import add_movers
 from models.robot import RobotModel
 from models.robot_loader import add_robot, body_meshes, is_sole
+from models.solid_names import is_ground
 from models.solids import add_solids, triangle_mesh
 from systems.disturbance.box_mover import BoxMotion, BoxMover
 from systems.disturbance.pusher import Push, Pusher
 from systems.perception.scan_assembler import ScanAssembler, box_around
 from systems.ports import Vector
-from systems.sensing.contact_monitor import ContactMonitor, watched_geometry
+from systems.sensing.contact_monitor import ContactMonitor
 from systems.sensing.foot_wrench_sensor import FootWrenchSensor
 from systems.sensing.kinematic_state import KinematicState
 from systems.sensing.ray_caster import BodyMesh
+from systems.sensing.robot_contacts import watched_geometry
+from systems.sensing.speed_monitor import SpeedMonitor
 from systems.sensing.tilting_lidar import TiltingLidar
-
-FURNITURE = ("box/", "room/wall", "room/ceiling")
-"""What a robot in a room must not touch, with its soles neither."""
-STAIRCASE_PREFIX = "staircase/"
-"""What the names of the staircase's solids begin with."""
+from systems.sensing.wanted_torque import WantedTorque
+from systems.values import FEET
 
 
 @dataclass(frozen=True)
@@ -43,7 +42,7 @@ class Station:
     """The plant and the ports around it.
 
     Subsystems: `plant`, `scene_graph`, `torque_hold`, `kinematic_state`,
-    `foot_wrench_sensor`, `contact_monitor`, `pusher`.
+    `foot_wrench_sensor`, `wanted_torque`, `contact_monitor`, `speed_monitor`, `pusher`.
     """
 
     plant: MultibodyPlant
@@ -58,7 +57,9 @@ class Station:
     """Measured positions and velocities, base first."""
     kinematics: KinematicState
     wrench_sensor: FootWrenchSensor
+    wanted_torque: WantedTorque
     contact_monitor: ContactMonitor
+    speed_monitor: SpeedMonitor
     movers: ModelInstanceIndex
     """The boxes that move, in the plant."""
 
@@ -73,24 +74,25 @@ def robot_alone(robot: RobotModel) -> MultibodyPlant:
     return model
 
 
+def robot_weight(model: MultibodyPlant) -> float:
+    """The weight of the robot alone, N."""
+    gravity = float(np.linalg.norm(model.gravity_field().gravity_vector()))
+    return model.CalcTotalMass(model.CreateDefaultContext()) * gravity
+
+
 def add_station(
     builder: DiagramBuilder,
     scenario: Scenario,
     robot: RobotModel,
     period: float,
-    forbidden: Sequence[str] = (STAIRCASE_PREFIX,),
-    soles_allowed: bool = True,
 ) -> Station:
-    """Adds robot, scene, servos, proprioception and pushes.
+    """Adds robot, scene, servos, proprioception, what watches the truth, and pushes.
 
     Args:
         builder: of the diagram.
         scenario: what stands where, and the simulation's settings.
         robot: which robot.
         period: of the controllers, s.
-        forbidden: what the names of the solids begin with that the robot must not
-            touch.
-        soles_allowed: whether its soles may.
 
     Returns:
         What the rest of a diagram connects to.
@@ -127,6 +129,10 @@ def add_station(
     wrench_sensor = add_system(
         builder, "foot_wrench_sensor", FootWrenchSensor(plant, instance, robot)
     )
+    wanted = add_system(builder, "wanted_torque", WantedTorque(plant, instance))
+    builder.Connect(joint_state, wanted.GetInputPort("state"))
+    builder.Connect(torque.get_output_port(), wanted.GetInputPort("torque"))
+    step = scenario.simulation.time_step
     contact_monitor = add_system(
         builder,
         "contact_monitor",
@@ -135,12 +141,18 @@ def add_station(
                 plant,
                 scene_graph.model_inspector(),
                 instance,
-                tuple(forbidden),
-                is_sole if soles_allowed else lambda name: False,
+                tuple(robot.foot_bodies[foot] for foot in FEET),
+                is_sole,
+                is_ground,
             ),
-            scenario.simulation.time_step,
+            step,
+            robot_weight(model),
         ),
     )
+    speed_monitor = add_system(
+        builder, "speed_monitor", SpeedMonitor(plant, instance, step)
+    )
+    builder.Connect(joint_state, speed_monitor.GetInputPort("state"))
     contact_results = plant.get_contact_results_output_port()
     for sensor in (wrench_sensor, contact_monitor):
         builder.Connect(contact_results, sensor.GetInputPort("contact_results"))
@@ -170,7 +182,9 @@ def add_station(
         joint_state,
         kinematics,
         wrench_sensor,
+        wanted,
         contact_monitor,
+        speed_monitor,
         movers,
     )
 

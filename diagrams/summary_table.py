@@ -29,8 +29,9 @@ def print_summary(summary: Summary, folder: Path) -> None:
     for name, value in data.items():
         if name in skipped or name.endswith("_joint"):
             continue
-        joint = data.get(name.replace("_fraction", "_joint"))
-        note = f" ({joint})" if name.endswith("_fraction") and joint else ""
+        stem = name.removesuffix("_fraction").removesuffix("_s")
+        joint = data.get(f"{stem}_joint")
+        note = f" ({joint})" if joint else ""
         for row, shown in summary_rows(name, value):
             table.add_row(row, shown + note)
     console.print(table)

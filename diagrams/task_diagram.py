@@ -27,6 +27,8 @@ from systems.values import TaskStatus
 class TaskDiagram:
     """A closed loop that is ready to run: its default context is where it starts."""
 
+    kind: str
+    """What is to be done, one of `task_params.TASKS`."""
     diagram: Diagram
     plant: MultibodyPlant
     """The true robot and scene."""
@@ -83,6 +85,7 @@ def build_diagram(
     diagram = builder.Build()
     diagram.set_name(scenario.task.kind)
     return TaskDiagram(
+        kind=scenario.task.kind,
         diagram=diagram,
         plant=station.plant,
         robot_instance=station.instance,

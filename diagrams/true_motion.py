@@ -20,6 +20,8 @@ class TrueMotion:
     """(n,), s."""
     com: Vector
     """p_WCom, (n, 3), m."""
+    com_velocity: Vector
+    """v_WCom, (n, 3), m/s."""
     base: Vector
     """Origin of the floating base, (n, 3), m."""
     torso_up: Vector
@@ -71,12 +73,15 @@ def true_motion(
     }
     X_AF: Vector = np.eye(4)
     X_AF[2, 3] = -robot.sole.ankle_height
-    com, base_positions = np.zeros((len(time), 3)), np.zeros((len(time), 3))
+    com, com_velocity, base_positions = np.zeros((3, len(time), 3))
     torso_up = np.zeros(len(time))
     X_WF: dict[Foot, Vector] = {foot: np.zeros((len(time), 4, 4)) for foot in FEET}
     for index, row in enumerate(state):
         plant.SetPositionsAndVelocities(context, instance, row)
         com[index] = plant.CalcCenterOfMassPositionInWorld(context, [instance])
+        com_velocity[index] = plant.CalcCenterOfMassTranslationalVelocityInWorld(
+            context, [instance]
+        )
         base_positions[index] = plant.EvalBodyPoseInWorld(context, base).translation()
         R_WT = plant.EvalBodyPoseInWorld(context, torso).rotation().matrix()
         torso_up[index] = R_WT[2, 2]
@@ -88,4 +93,4 @@ def true_motion(
         foot: poses[:, None, :3, 3] + np.einsum("nij,kj->nki", poses[:, :3, :3], p_F)
         for foot, poses in X_WF.items()
     }
-    return TrueMotion(time, com, base_positions, torso_up, corners, X_WF)
+    return TrueMotion(time, com, com_velocity, base_positions, torso_up, corners, X_WF)

@@ -168,6 +168,10 @@ def add_walking(
         tracker.GetOutputPort("joint_references"),
         station.plant.get_desired_state_input_port(station.instance),
     )
+    builder.Connect(
+        tracker.GetOutputPort("joint_references"),
+        station.wanted_torque.GetInputPort("desired_state"),
+    )
 
     feedforward = add_system(
         builder, "feedforward", WholeBodyFeedforward(model, robot, LARGEST_ACCELERATION)

@@ -59,6 +59,9 @@ def record_walking(
         "N m",
     )
     add("station.torque_command", station.torque.get_output_port(), joints, "N m")
+    wanted = station.wanted_torque.GetOutputPort("torque_wanted")
+    add("station.torque_wanted", wanted, joints, "N m")
+    _record_truth(recorder, station, joints)
 
     wrench = ("fx", "fy", "fz", "mx", "my", "mz")
     units = ("N",) * 3 + ("N m",) * 3
@@ -138,16 +141,41 @@ def record_walking(
         VALUE_PERIOD,
         keep=False,
     )
-    recorder.add_value(
-        "contact_monitor.touches",
-        station.contact_monitor.GetOutputPort("touches"),
-        VALUE_PERIOD,
-    )
     for port in ("status", "footstep_plan"):
         recorder.add_value(
             f"executive.{port}", executive.GetOutputPort(port), VALUE_PERIOD
         )
     return recorder
+
+
+def _record_truth(
+    recorder: SignalRecorder, station: Station, joints: tuple[str, ...]
+) -> None:
+    """Logs what watches every step of the plant."""
+    monitor = station.contact_monitor
+    for port, columns, unit in (
+        ("foot_forces", _columns(("fx", "fy", "fz")), "N"),
+        ("other_support", ("fz",), "N"),
+        ("impact", _SIDES, "N"),
+        ("friction_ratio", ("ratio",), "1"),
+    ):
+        recorder.add_vector(
+            f"contact_monitor.{port}",
+            monitor.GetOutputPort(port),
+            columns,
+            unit,
+            SIGNAL_PERIOD,
+        )
+    recorder.add_vector(
+        "speed_monitor.peak_speeds",
+        station.speed_monitor.GetOutputPort("peak_speeds"),
+        joints,
+        "rad/s",
+        VALUE_PERIOD,
+    )
+    recorder.add_value(
+        "contact_monitor.touches", monitor.GetOutputPort("touches"), VALUE_PERIOD
+    )
 
 
 def _state_units(names: list[str]) -> tuple[str, ...]:

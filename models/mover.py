@@ -15,6 +15,7 @@ from pydrake.multibody.tree import (
 )
 
 from models.obstacle import COLOR, BoxParams
+from models.solid_names import BOX
 from models.validation import number
 from systems.ports import Vector
 
@@ -83,7 +84,7 @@ def add_movers(
         p_BG[2] += 1e-3
         X_BG = RigidTransform(RollPitchYaw(0.0, 0.0, mover.yaw), p_BG)
         friction = CoulombFriction(mover.friction, mover.friction)
-        name = f"box/{mover.name}"
+        name = f"{BOX}{mover.name}"
         color: Vector = np.array(COLOR)
         plant.RegisterCollisionGeometry(body, X_BG, BoxShape(*size), name, friction)
         plant.RegisterVisualGeometry(body, X_BG, BoxShape(*size), name, color)

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from models.solid_names import BOX
 from models.solids import Box, Rgba, upright_pose
 from models.validation import Parameters, number
 
@@ -48,4 +49,4 @@ class BoxParams(Parameters):
         self.validate()
         size = np.array(self.size, dtype=np.float64)
         X_WB = upright_pose(self.x, self.y, self.z + size[2] / 2.0, self.yaw)
-        return Box(f"box/{self.name}", X_WB, size, self.friction, COLOR)
+        return Box(f"{BOX}{self.name}", X_WB, size, self.friction, COLOR)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from pydrake.math import RigidTransform
 
+from models.solid_names import ROOM
 from models.solids import Box, Rgba, upright_pose
 from models.validation import Parameters, number
 
@@ -55,7 +56,7 @@ class RoomParams(Parameters):
 
         def box(name: str, p_R: list[float], size: list[float], color: Rgba) -> Box:
             X_WB = X_WR.multiply(upright_pose(*p_R))
-            return Box(f"room/{name}", X_WB, np.array(size), self.friction, color)
+            return Box(f"{ROOM}{name}", X_WB, np.array(size), self.friction, color)
 
         slab = [length, width, deep]
         across, along = (

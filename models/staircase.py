@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from pydrake.math import RigidTransform
 
+from models.solid_names import STAIRCASE
 from models.solids import Box, Rgba, upright_pose
 from models.validation import Parameters, number
 from systems.ports import Vector
@@ -98,7 +99,7 @@ class StaircaseParams(Parameters):
         size = np.array([self.run, self.width])
         return tuple(
             Tread(
-                f"staircase/step_{step}",
+                f"{STAIRCASE}step_{step}",
                 X_WS.multiply(
                     upright_pose(x=(step - 0.5) * self.run, z=step * self.rise)
                 ),

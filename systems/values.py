@@ -271,12 +271,12 @@ class StancePolygon(Value):
 
 @dataclass(frozen=True, eq=False)
 class Touch(Value):
-    """Part of the robot that met part of the scene."""
+    """Part of the robot that met part of the scene, or of itself."""
 
     body: str
     """The robot's body."""
     solid: str
-    """The scene's solid, e.g. "staircase/step_2"."""
+    """The scene's solid, e.g. "staircase/step_2", or another of the robot's bodies."""
     duration: float
     """For how long they touched, all in all, s."""
     peak_force: float

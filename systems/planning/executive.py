@@ -9,7 +9,7 @@ import numpy as np
 from pydrake.common.value import AbstractValue
 from pydrake.systems.framework import BasicVector, Context, LeafSystem
 
-from models.validation import Parameters, number
+from models.validation import Parameters, number, require_at_least
 from systems.planning.decision_state import declare_decisions
 from systems.ports import eval_abstract, eval_vector, set_vector
 from systems.thinking import Thought, ready_time

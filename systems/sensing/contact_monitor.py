@@ -1,14 +1,8 @@
-"""Whether the robot touches the scene with anything but its soles."""
-
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import NamedTuple
+"""What the robot touches, and with what force it meets the ground."""
 
 import numpy as np
 from pydrake.common.value import AbstractValue, Value
-from pydrake.geometry import GeometryId, SceneGraphInspector
-from pydrake.multibody.plant import ContactResults, MultibodyPlant
-from pydrake.multibody.tree import BodyIndex, ModelInstanceIndex
+from pydrake.multibody.plant import ContactResults
 from pydrake.systems.framework import (
     BasicVector,
     Context,
@@ -16,112 +10,30 @@ from pydrake.systems.framework import (
     LeafSystem,
 )
 
-from systems.ports import Vector, eval_abstract
+from systems.ports import Vector, eval_abstract, set_vector
+from systems.sensing.moving_mean import window_weights
+from systems.sensing.robot_contacts import (
+    RobotContact,
+    WatchedGeometry,
+    robot_contacts,
+    scene_forces,
+)
 from systems.timing import timed
 from systems.values import Touch, Touches
 
-
-class Contact(NamedTuple):
-    """A watched pair that is in contact."""
-
-    body: int
-    """Index into `WatchedGeometry.bodies`."""
-    solid: int
-    """Index into `WatchedGeometry.solids`."""
-    force: float
-    """Magnitude of the contact force, N."""
-
-
-@dataclass(frozen=True)
-class WatchedGeometry:
-    """Which geometries must not meet."""
-
-    bodies: tuple[str, ...]
-    """The robot's bodies."""
-    solids: tuple[str, ...]
-    """The scene's solids."""
-    body_of: dict[GeometryId, int]
-    """Index into `bodies` of each of the robot's collision geometries, but for the
-    soles'."""
-    solid_of: dict[GeometryId, int]
-    """Index into `solids` of each of the scene's collision geometries."""
-
-
-def watched_geometry(
-    plant: MultibodyPlant,
-    inspector: SceneGraphInspector,
-    robot: ModelInstanceIndex,
-    solid_prefix: str | tuple[str, ...],
-    is_sole: Callable[[str], bool],
-) -> WatchedGeometry:
-    """Finds the robot's geometries that are no soles, and the scene's to keep off.
-
-    Args:
-        plant: the finalised plant.
-        inspector: of the scene graph that the plant is registered with.
-        robot: the robot's model instance.
-        solid_prefix: what the names (without scope) of the solids begin with, one or
-            several.
-        is_sole: tells a sole's geometry by its name.
-    """
-    bodies: list[str] = []
-    body_of: dict[GeometryId, int] = {}
-    for index in plant.GetBodyIndices(robot):
-        body = plant.get_body(index)
-        geometries = [
-            geometry
-            for geometry in plant.GetCollisionGeometriesForBody(body)
-            if not is_sole(inspector.GetName(geometry))
-        ]
-        if geometries:
-            body_of |= dict.fromkeys(geometries, len(bodies))
-            bodies.append(body.name())
-    solids: list[str] = []
-    solid_of: dict[GeometryId, int] = {}
-    for number in range(plant.num_bodies()):
-        body = plant.get_body(BodyIndex(number))
-        if body.model_instance() == robot:
-            continue
-        for geometry in plant.GetCollisionGeometriesForBody(body):
-            name = inspector.GetName(geometry).rpartition("::")[2]
-            if name.startswith(solid_prefix):
-                solid_of[geometry] = len(solids)
-                solids.append(name)
-    return WatchedGeometry(tuple(bodies), tuple(solids), body_of, solid_of)
-
-
-def watched_contacts(
-    results: ContactResults, watched: WatchedGeometry
-) -> list[Contact]:
-    """The contacts between what is watched; point pairs and hydroelastic surfaces."""
-    contacts = []
-    body_of, solid_of = watched.body_of, watched.solid_of
-    for index in range(results.num_point_pair_contacts()):
-        info = results.point_pair_contact_info(index)
-        pair = info.point_pair()
-        a, b = pair.id_A, pair.id_B
-        body = body_of.get(a, body_of.get(b))
-        solid = solid_of.get(a, solid_of.get(b))
-        if body is not None and solid is not None:
-            force = float(np.linalg.norm(info.contact_force()))
-            contacts.append(Contact(body, solid, force))
-    for index in range(results.num_hydroelastic_contacts()):
-        surface = results.hydroelastic_contact_info(index)
-        m, n = surface.contact_surface().id_M(), surface.contact_surface().id_N()
-        body = body_of.get(m, body_of.get(n))
-        solid = solid_of.get(m, solid_of.get(n))
-        if body is not None and solid is not None:
-            force = float(np.linalg.norm(surface.F_Ac_W().translational()))
-            contacts.append(Contact(body, solid, force))
-    return contacts
+WINDOW = 0.01
+"""Forces are averaged over this, s: of an impact a single step of the plant says what
+its length and its solver make of it."""
+LOADED = 0.20
+"""Share of the weight above which a foot counts as loaded."""
 
 
 class ContactMonitor(LeafSystem):
-    """Remembers what of the robot, but for its soles, has touched what of the scene.
+    """Remembers what the robot has touched that it must not, and what its feet felt.
 
-    It looks at every step of the plant, so that a graze of one step is not missed;
-    the state is discrete (a time and a force a pair), because an unrestricted update
-    at that rate would slow the whole run down.
+    It looks at every step of the plant, so that a graze of one step is not missed. The
+    state is discrete, because an unrestricted update at that rate would slow the whole
+    run down. Means are over `WINDOW`.
 
     .. pydrake_system::
 
@@ -131,85 +43,130 @@ class ContactMonitor(LeafSystem):
         output_ports:
         - touching
         - touches
+        - foot_forces
+        - other_support
+        - impact
+        - friction_ratio
 
     - `contact_results`: the plant's contacts, ContactResults.
-    - `touching`: how many contacts there were at the last step, (1,).
-    - `touches`: every pair that has met since the start, `Touches`.
+    - `touching`: how many forbidden contacts there were at the last step, (1,).
+    - `touches`: every forbidden pair that has met since the start, `Touches`; a body of
+      the robot with anything of the scene, but for its soles with the ground, or with
+      another of its own bodies.
+    - `foot_forces`: mean force of the scene on the left, then on the right foot, in W,
+      (6,), N.
+    - `other_support`: mean upward force of the scene on all but the soles, (1,), N.
+    - `impact`: largest mean upward force on each foot since the start, (2,), N.
+    - `friction_ratio`: largest ratio of the mean horizontal to the mean upward force on
+      a foot that bears more than `LOADED`, since the start, (1,).
     """
 
-    def __init__(self, watched: WatchedGeometry, period: float) -> None:
+    def __init__(self, watched: WatchedGeometry, period: float, weight: float) -> None:
         """Declares ports, state and the update.
 
         Args:
-            watched: which geometries must not meet.
+            watched: the geometries of the robot and of the scene.
             period: the plant's time step, s.
+            weight: of the robot, N.
 
         Raises:
-            ValueError: the period is not positive.
+            ValueError: period or weight is not positive.
         """
         super().__init__()
-        if not period > 0.0:
-            raise ValueError(f"period: must be positive, got {period} s")
-        self._watched = watched
-        self._period = period
-        pairs = len(watched.bodies) * len(watched.solids)
+        for name, value, unit in (("period", period, "s"), ("weight", weight, "N")):
+            if not value > 0.0:
+                raise ValueError(f"{name}: must be positive, got {value} {unit}")
+        self._watched, self._period, self._weight = watched, period, weight
+        self._weights = window_weights(WINDOW, period)
+        pairs = len(watched.bodies) * len(watched.others)
         self._results = self.DeclareAbstractInputPort(
             "contact_results", Value(ContactResults())
         )
-        touching = self.DeclareDiscreteState(1)
-        durations = self.DeclareDiscreteState(pairs)
-        forces = self.DeclareDiscreteState(pairs)
-        self._touching, self._durations, self._forces = map(
-            int, (touching, durations, forces)
+
+        def state(size: int) -> int:
+            return int(self.DeclareDiscreteState(size))
+
+        self._touching, self._durations, self._forces = (
+            state(1),
+            state(pairs),
+            state(pairs),
         )
+        self._window = state(9 * len(self._weights))
+        self._mean, self._impact, self._ratio = state(9), state(2), state(1)
         self.DeclarePeriodicDiscreteUpdateEvent(period, 0.0, timed(self, self._update))
-        self.DeclareVectorOutputPort(
-            "touching",
-            1,
-            timed(self, self._calc_touching),
-            prerequisites_of_calc={self.discrete_state_ticket(touching)},
-        )
+        for name, index, part in (
+            ("touching", self._touching, slice(0, 1)),
+            ("foot_forces", self._mean, slice(0, 6)),
+            ("other_support", self._mean, slice(8, 9)),
+            ("impact", self._impact, slice(0, 2)),
+            ("friction_ratio", self._ratio, slice(0, 1)),
+        ):
+            self._declare_output(name, index, part)
         self.DeclareAbstractOutputPort(
             "touches",
             lambda: Value[object](Touches()),
             timed(self, self._calc_touches),  # type: ignore[arg-type]
-            prerequisites_of_calc={
-                self.discrete_state_ticket(durations),
-                self.discrete_state_ticket(forces),
-            },
+            prerequisites_of_calc={self.xd_ticket()},
+        )
+
+    def _declare_output(self, name: str, index: int, part: slice) -> None:
+        def calc(context: Context, output: BasicVector) -> None:
+            held: Vector = context.get_discrete_state(index).value()
+            set_vector(output, held[part])
+
+        self.DeclareVectorOutputPort(
+            name,
+            part.stop - part.start,
+            timed(self, calc),
+            prerequisites_of_calc={self.xd_ticket()},
         )
 
     def _update(self, context: Context, state: DiscreteValues) -> None:
         results = eval_abstract(self._results, context, ContactResults)
-        contacts = watched_contacts(results, self._watched)
-        state.get_mutable_vector(self._touching).SetAtIndex(0, len(contacts))
-        if not contacts:
-            return
+        contacts = robot_contacts(results, self._watched)
+        window: Vector = state.get_mutable_value(self._window)
+        window[9:] = window[:-9].copy()
+        window[:9] = scene_forces(contacts, self._watched).ravel()
+        mean: Vector = self._weights @ window.reshape(-1, 9)
+        state.get_mutable_value(self._mean)[:] = mean
+        self._keep_largest(mean, state)
+        forbidden = [contact for contact in contacts if not contact.allowed]
+        state.get_mutable_value(self._touching)[0] = len(forbidden)
+        if forbidden:
+            self._keep_touches(forbidden, state)
+
+    def _keep_largest(self, mean: Vector, state: DiscreteValues) -> None:
+        impact = state.get_mutable_value(self._impact)
+        ratio = state.get_mutable_value(self._ratio)
+        for foot, force in enumerate(mean[:6].reshape(2, 3)):
+            impact[foot] = max(impact[foot], force[2])
+            if force[2] > LOADED * self._weight:
+                ratio[0] = max(ratio[0], np.hypot(force[0], force[1]) / force[2])
+
+    def _keep_touches(
+        self, contacts: list[RobotContact], state: DiscreteValues
+    ) -> None:
         durations = state.get_mutable_value(self._durations)
         forces = state.get_mutable_value(self._forces)
-        force_of: dict[int, float] = {}
+        force_of: dict[int, Vector] = {}
         for contact in contacts:
-            pair = contact.body * len(self._watched.solids) + contact.solid
+            pair = contact.body * len(self._watched.others) + contact.other
             force_of[pair] = force_of.get(pair, 0.0) + contact.force
         for pair, force in force_of.items():
             durations[pair] += self._period
-            forces[pair] = max(forces[pair], force)
-
-    def _calc_touching(self, context: Context, touching: BasicVector) -> None:
-        state = context.get_discrete_state(self._touching)
-        touching.SetAtIndex(0, state.GetAtIndex(0))
+            forces[pair] = max(forces[pair], float(np.linalg.norm(force)))
 
     def _calc_touches(self, context: Context, touches: AbstractValue) -> None:
         durations: Vector = context.get_discrete_state(self._durations).value()
         forces: Vector = context.get_discrete_state(self._forces).value()
-        solids = self._watched.solids
+        others = self._watched.others
         met = [int(pair) for pair in np.flatnonzero(durations)]
         touches.set_value(
             Touches(
                 tuple(
                     Touch(
-                        self._watched.bodies[pair // len(solids)],
-                        solids[pair % len(solids)],
+                        self._watched.bodies[pair // len(others)],
+                        others[pair % len(others)],
                         float(durations[pair]),
                         float(forces[pair]),
                     )

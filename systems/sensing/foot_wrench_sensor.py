@@ -11,6 +11,7 @@ from pydrake.systems.framework import BasicVector, Context, LeafSystem
 
 from models.robot import RobotModel
 from systems.ports import Vector, eval_abstract, eval_vector, set_vector
+from systems.sensing.measured_zmp import measured_zmp
 from systems.timing import timed
 from systems.values import FEET
 
@@ -52,32 +53,6 @@ def sum_wrenches(
         wrench[:3] = R_FW @ wrench[:3]
         wrench[3:] = R_FW @ wrench[3:]
     return wrenches
-
-
-def measured_zmp(wrenches: Vector, X_WF: Sequence[RigidTransform]) -> Vector:
-    """The ZMP of what the feet feel, p_WZmp, (3,), m; nan while nothing is felt.
-
-    It lies at the mean height of the feet, weighted by how much each carries, where
-    the net moment about both horizontal axes vanishes.
-    """
-    force, moment = np.zeros(3), np.zeros(3)
-    height = 0.0
-    for wrench, X in zip(wrenches, X_WF, strict=True):
-        R_WF = X.rotation().matrix()
-        f_W = R_WF @ wrench[:3]
-        force += f_W
-        moment += R_WF @ wrench[3:] + np.cross(X.translation(), f_W)
-        height += f_W[2] * X.translation()[2]
-    if force[2] < 1.0:
-        return np.full(3, np.nan)
-    z = height / force[2]
-    return np.array(
-        [
-            (-moment[1] + z * force[0]) / force[2],
-            (moment[0] + z * force[1]) / force[2],
-            z,
-        ]
-    )
 
 
 class FootWrenchSensor(LeafSystem):
@@ -146,4 +121,5 @@ class FootWrenchSensor(LeafSystem):
 
     def _calc_zmp(self, context: Context, output: BasicVector) -> None:
         wrenches = eval_vector(self._wrenches, context).reshape(2, 6)
-        set_vector(output, measured_zmp(wrenches, self._sole_frames(context)))
+        poses = [X.GetAsMatrix4() for X in self._sole_frames(context)]
+        set_vector(output, measured_zmp(np.array(poses), wrenches))

@@ -1,7 +1,7 @@
 """A task that any machine can run in a second: the robot stands, a clock ends it."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -12,24 +12,30 @@ from pydrake.multibody.plant import AddMultibodyPlant, MultibodyPlantConfig
 from pydrake.systems.framework import Context, DiagramBuilder, LeafSystem
 from pydrake.systems.primitives import ConstantVectorSource
 
-from diagrams.evidence import Evidence
+from diagrams.evidence import Evidence, robot_limits
 from diagrams.obstacle_crossing import build_obstacle_crossing
 from diagrams.scenario import Scenario, SimulationParams, load_scenario
 from diagrams.signals import SignalRecorder
 from diagrams.simulation import run_task
 from diagrams.task_diagram import TaskDiagram
 from models.jvrc1 import JVRC1
+from models.robot import JointGains
 from models.robot_loader import add_robot, is_sole
 from models.scene import SceneParams
+from models.solid_names import is_ground
 from models.solids import add_solids
 from models.staircase import StaircaseParams
-from systems.sensing.contact_monitor import ContactMonitor, watched_geometry
+from systems.sensing.contact_monitor import ContactMonitor
 from systems.sensing.foot_wrench_sensor import FootWrenchSensor
+from systems.sensing.robot_contacts import watched_geometry
+from systems.sensing.speed_monitor import SpeedMonitor
 from systems.timing import timed
 from systems.values import FEET, TaskStatus
 from tests.diagrams.climb_evidence import climb_evidence
 
 TIME_STEP = 2e-3
+STIFF = replace(JVRC1, gains=dict.fromkeys(JVRC1.gains, JointGains(4000.0, 200.0, 0.1)))
+"""Stands by its servos alone."""
 WRENCH = ("fx", "fy", "fz", "mx", "my", "mz")
 
 
@@ -125,17 +131,17 @@ def standing_task(
     )
     plant.set_name("plant")
     add_solids(plant, scene.solids())
-    robot = add_robot(plant, scene_graph, JVRC1)
+    robot = add_robot(plant, scene_graph, STIFF)
     plant.Finalize()
-    base = plant.GetBodyByName(JVRC1.base_body, robot)
+    base = plant.GetBodyByName(STIFF.base_body, robot)
     plant.SetDefaultFloatingBaseBodyPose(base, RigidTransform(np.array([0, 0, 0.85])))
-    for name, angle in JVRC1.posture.items():
+    for name, angle in STIFF.posture.items():
         plant.GetJointByName(name).set_default_angle(angle)
     context = plant.CreateDefaultContext()
-    foot = plant.GetBodyByName(JVRC1.foot_bodies["left"], robot)
+    foot = plant.GetBodyByName(STIFF.foot_bodies["left"], robot)
     sole = plant.EvalBodyPoseInWorld(context, foot).translation()[2]
     com = plant.CalcCenterOfMassPositionInWorld(context, [robot])
-    height = 0.85 - sole + JVRC1.sole.ankle_height
+    height = 0.85 - sole + STIFF.sole.ankle_height
     plant.SetDefaultFloatingBaseBodyPose(
         base, RigidTransform(np.array([-com[0], 0.0, height]))
     )
@@ -145,7 +151,7 @@ def standing_task(
     ]
     wanted = np.array(
         [
-            JVRC1.posture.get(joint.name(), 0.0)
+            STIFF.posture.get(joint.name(), 0.0)
             + pitch * joint.name().endswith("ANKLE_P")
             for joint in joints
         ]
@@ -158,11 +164,21 @@ def standing_task(
     )
     clock = builder.AddNamedSystem("executive", Clock(end, last))
     watched = watched_geometry(
-        plant, scene_graph.model_inspector(), robot, "staircase/", is_sole
+        plant,
+        scene_graph.model_inspector(),
+        robot,
+        tuple(STIFF.foot_bodies[foot] for foot in FEET),
+        is_sole,
+        is_ground,
     )
+    weight = robot_limits(plant, robot).weight
     monitor = builder.AddNamedSystem(
-        "contact_monitor", ContactMonitor(watched, TIME_STEP)
+        "contact_monitor", ContactMonitor(watched, TIME_STEP, weight)
     )
+    speeds = builder.AddNamedSystem(
+        "speed_monitor", SpeedMonitor(plant, robot, TIME_STEP)
+    )
+    builder.Connect(plant.get_state_output_port(robot), speeds.GetInputPort("state"))
     builder.Connect(
         plant.get_contact_results_output_port(), monitor.GetInputPort("contact_results")
     )
@@ -181,7 +197,7 @@ def standing_task(
         "Nm",
         0.005,
     )
-    sensor = builder.AddNamedSystem("station", FootWrenchSensor(plant, robot, JVRC1))
+    sensor = builder.AddNamedSystem("station", FootWrenchSensor(plant, robot, STIFF))
     builder.Connect(
         plant.get_contact_results_output_port(), sensor.GetInputPort("contact_results")
     )
@@ -195,13 +211,32 @@ def standing_task(
         ("N", "N", "N", "Nm", "Nm", "Nm") * 2,
         0.005,
     )
+    for port, columns in (
+        (
+            "foot_forces",
+            tuple(f"{foot}_{part}" for foot in FEET for part in WRENCH[:3]),
+        ),
+        ("other_support", ("fz",)),
+        ("impact", FEET),
+    ):
+        signals.add_vector(
+            f"contact_monitor.{port}", monitor.GetOutputPort(port), columns, "N", 0.005
+        )
+    signals.add_vector(
+        "speed_monitor.peak_speeds",
+        speeds.GetOutputPort("peak_speeds"),
+        tuple(joint.name() for joint in joints),
+        "rad/s",
+        0.025,
+    )
     signals.add_value("executive.status", clock.GetOutputPort("status"), 0.005)
     signals.add_value("contact_monitor.touches", monitor.GetOutputPort("touches"), 0.05)
     return TaskDiagram(
+        kind="standing",
         diagram=builder.Build(),
         plant=plant,
         robot_instance=robot,
-        robot=JVRC1,
+        robot=STIFF,
         scene=scene,
         signals=signals,
         status=clock.GetOutputPort("status"),

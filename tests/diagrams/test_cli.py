@@ -68,7 +68,7 @@ def test_run_writes_the_run_folder(stand, tmp_path) -> None:
         *("scenario.yaml", "summary.json", "signals", "replay.html", "figures"),
         "diagram.svg",
     }
-    assert result.stdout.startswith("completed: the robot stands")
+    assert result.stdout.startswith("completed: the robot rests")
     assert "max_torque_fraction" in result.stdout
     assert "climb_time_s" in result.stdout
     assert "not measured" in result.stdout

@@ -82,6 +82,7 @@ def _two_feet_over(loaded_late: float) -> tuple[TrueMotion, dict[Foot, Vector]]:
         X_WF=poses,
         sole_corners={},
         com=nothing,
+        com_velocity=nothing,
         base=nothing,
         torso_up=np.ones(len(time)),
     )
@@ -92,7 +93,7 @@ def _two_feet_over(loaded_late: float) -> tuple[TrueMotion, dict[Foot, Vector]]:
 def test_phases_end_with_the_touch_down_not_with_the_load(loaded_late: float) -> None:
     """A slow robot loads a foot long after it stands."""
     motion, forces = _two_feet_over(loaded_late)
-    found = measure_crossing(motion, forces, 600.0, BOX)
+    found = measure_crossing(motion, forces, forces, 600.0, BOX)
     assert found is not None
     assert found.time == pytest.approx(3.0, abs=0.03)
     assert found.impact == pytest.approx(
@@ -104,4 +105,33 @@ def test_one_foot_over_is_no_crossing() -> None:
     """The other one stays before the box."""
     motion, forces = _two_feet_over(0.0)
     motion.X_WF["right"][:, 0, 3] = 0.8
-    assert measure_crossing(motion, forces, 600.0, BOX) is None
+    assert measure_crossing(motion, forces, forces, 600.0, BOX) is None
+
+
+def test_one_foot_over_and_back_is_no_crossing() -> None:
+    """Two swings over it by the same foot do not bring the robot beyond."""
+    motion, forces = _two_feet_over(0.0)
+    there = motion.X_WF["left"][:, 0, 3]
+    motion.X_WF["left"][:, 0, 3] = np.where(
+        motion.time < 3.0, there, np.interp(motion.time, [3.0, 4.0], [1.2, 0.8])
+    )
+    forces["left"][(motion.time >= 3.0) & (motion.time < 4.0)] = 0.0
+    motion.X_WF["right"][:, 0, 3] = 0.8
+    assert measure_crossing(motion, forces, forces, 600.0, BOX) is None
+
+
+@pytest.mark.parametrize("beside", [0.7, -0.7])
+def test_what_is_walked_past_is_not_crossed(beside: float) -> None:
+    """The feet come level with it and go on, beyond its end."""
+    motion, forces = _two_feet_over(0.0)
+    for foot in FEET:
+        motion.X_WF[foot][:, 1, 3] = beside
+    assert measure_crossing(motion, forces, forces, 600.0, BOX) is None
+
+
+def test_without_mean_forces_there_is_no_impact() -> None:
+    """The time is measured all the same."""
+    motion, forces = _two_feet_over(0.0)
+    found = measure_crossing(motion, forces, None, 600.0, BOX)
+    assert found is not None
+    assert found.impact is None

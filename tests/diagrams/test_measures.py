@@ -8,14 +8,11 @@ from diagrams.measures import (
     Interval,
     contact_intervals,
     foot_slip,
-    foot_zmp,
-    measured_zmp,
     nosings,
-    stands_on,
     swing_clearance,
     zmp_margins,
 )
-from models.staircase import StaircaseParams, Tread
+from models.staircase import StaircaseParams
 
 WEIGHT = 600.0
 HEEL, TOE, HALF = 0.075, 0.15, 0.042
@@ -81,32 +78,6 @@ def test_turning_about_one_corner_is_slip() -> None:
     assert slip == pytest.approx(2.0 * np.sin(0.05) * 2.0 * HALF)
 
 
-def test_zmp_of_one_foot_is_where_its_force_acts() -> None:
-    """A force at a known point of the sole gives that point back, on a turned foot."""
-    X_WF = RigidTransform(RollPitchYaw(0.05, -0.1, 0.7), np.array([1.0, 2.0, 0.4]))
-    p_F, force = np.array([0.06, -0.02, 0.0]), np.array([30.0, -20.0, 500.0])
-    wrench = np.concatenate([force, np.cross(p_F, force)])
-    zmp = foot_zmp(X_WF.GetAsMatrix4()[None], wrench[None])
-    np.testing.assert_allclose(zmp[0], X_WF.multiply(p_F), atol=1e-12)
-
-
-def flat_feet() -> tuple[np.ndarray, np.ndarray]:
-    """Poses of two feet 20 cm apart, one sample."""
-    return tuple(
-        RigidTransform(np.array([0.0, y, 0.0])).GetAsMatrix4()[None]
-        for y in (0.1, -0.1)
-    )
-
-
-def test_measured_zmp_is_weighted_by_load() -> None:
-    """Three quarters of the load on the left foot put it there by as much."""
-    wrenches = [np.array([[0, 0, share * WEIGHT, 0, 0, 0]]) for share in (0.75, 0.25)]
-    zmp = measured_zmp(flat_feet(), tuple(wrenches), WEIGHT)
-    np.testing.assert_allclose(zmp, [[0.0, 0.05]], atol=1e-12)
-    nothing = (np.zeros((1, 6)), np.zeros((1, 6)))
-    assert np.isnan(measured_zmp(flat_feet(), nothing, WEIGHT)).all()
-
-
 def test_margin_is_the_distance_to_the_edge_of_the_hull() -> None:
     """Positive inside, negative outside, of one sole or of both."""
     corners = tuple(sole(0.0, y)[None].repeat(4, axis=0) for y in (0.1, -0.1))
@@ -130,36 +101,6 @@ def test_lifted_corners_do_not_support() -> None:
         WEIGHT,
     )
     assert margins[0] == pytest.approx(-0.05)
-
-
-@pytest.fixture
-def treads() -> tuple[Tread, ...]:
-    """Two treads that go up along y, so that no axis is taken for granted."""
-    return StaircaseParams(steps=2, rise=0.2, run=0.27, x=0.0, yaw=np.pi / 2).treads()
-
-
-@pytest.mark.parametrize(
-    ("p", "expected"),
-    [
-        ((0.0, 0.36, 0.4), True),
-        ((0.0, 0.36, 0.409), True),
-        ((0.0, 0.36, 0.411), False),
-        ((0.0, 0.36, 0.389), False),
-        ((0.0, 0.30, 0.4), True),  # the heel overhangs by 4.5 cm of 22.5
-        ((0.0, 0.28, 0.4), False),  # by 6.5 cm
-        ((0.5, 0.36, 0.4), False),
-    ],
-)
-def test_a_sole_stands_on_the_tread_that_bears_it(treads, p, expected) -> None:
-    """Its height within 1 cm, three quarters of its area over the tread."""
-    corners = sole(*p, yaw=np.pi / 2)
-    assert stands_on(corners, treads[1]) is expected
-    assert not stands_on(corners, treads[0])
-
-
-def test_a_tilted_sole_does_not_stand(treads) -> None:
-    """One corner 3 cm up is not at rest."""
-    assert not stands_on(sole(0.0, 0.36, 0.4, pitch=-0.2, yaw=np.pi / 2), treads[1])
 
 
 def swing(height: float, landing: float) -> tuple[np.ndarray, np.ndarray]:

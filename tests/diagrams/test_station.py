@@ -154,8 +154,21 @@ def test_the_model_of_the_controllers_is_the_robot_alone() -> None:
     )
 
 
-def test_contacts_are_watched_every_step() -> None:
-    """Of the staircase, not of the floor it stands on."""
-    station, _ = alone(load_scenario("stairs-exp1"))
-    solids = station.contact_monitor._watched.solids
-    assert set(solids) == {f"staircase/step_{i}" for i in (1, 2, 3)}
+@pytest.mark.parametrize("scenario", ["stairs-exp1", "obstacle-15cm", "room-moving"])
+def test_everything_is_watched_in_every_task(scenario: str) -> None:
+    """Every solid for every body, and soles may touch the ground alone."""
+    box = "scene.boxes=[{name: bin, x: -0.5, y: 1.5, size: [0.4, 0.3, 0.5]}]"
+    loaded = load_scenario(scenario, [box])
+    station, _ = alone(loaded)
+    watched = station.contact_monitor._watched
+    scene = loaded.scene
+    movers = {f"box/{mover.name}" for mover in scene.movers}
+    assert set(watched.solids) == {s.name for s in scene.solids()} | movers
+    assert {watched.solids[index] for index in watched.ground} == {
+        "room/floor",
+        *(tread.name for tread in scene.treads()),
+    }
+    assert set(JVRC1.foot_bodies.values()) <= set(watched.bodies)
+    assert len(watched.bodies) > 25
+    soles = [part for part in watched.part_of.values() if part.sole]
+    assert {part.body for part in soles} == set(watched.feet)

@@ -16,6 +16,8 @@ def test_nested_figures_are_rows_of_their_own(tmp_path, capsys) -> None:
         real_time_factor=0.5,
         max_torque_fraction=0.98312,
         max_torque_joint="L_KNEE",
+        torque_limit_s=0.125,
+        torque_limit_joint="R_KNEE",
         crossing={
             "zmp_error_after_cwtg1_m": [0.075821234, 0.0190912],
             "planning_ms": 272.0,
@@ -31,6 +33,7 @@ def test_nested_figures_are_rows_of_their_own(tmp_path, capsys) -> None:
     assert rows["crossing.zmp_error_after_cwtg1_m"] == "0.07582, 0.01909"
     assert rows["crossing.planning_ms"] == "272"
     assert rows["max_torque_fraction"] == "0.9831 (L_KNEE)"
+    assert rows["torque_limit_s"] == "0.125 (R_KNEE)"
     assert rows["climb_time_s"] == "not measured"
     assert not {"timing_us", "versions", "outcome"} & set(rows)
     assert rows["crossing.keys.X_ads"] == "0.4037"

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from diagrams.outcome import base_height
+from diagrams.falls import base_height
 from diagrams.scenario import ScenarioError, list_scenarios, load_scenario
 from diagrams.simulation import simulate
 from diagrams.task_params import TASKS

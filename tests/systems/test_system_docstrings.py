@@ -52,11 +52,14 @@ from systems.planning.motion_player import MotionPlayer
 from systems.planning.path_executive import PathExecutive, PathExecutiveParams
 from systems.planning.path_footstep_planner import PathFootstepPlanner
 from systems.planning.path_planner import PathPlanner
-from systems.sensing.contact_monitor import ContactMonitor, WatchedGeometry
+from systems.sensing.contact_monitor import ContactMonitor
 from systems.sensing.depth_camera import DepthCamera, DepthCameraParams
 from systems.sensing.foot_wrench_sensor import FootWrenchSensor
 from systems.sensing.kinematic_state import KinematicState
+from systems.sensing.robot_contacts import WatchedGeometry
+from systems.sensing.speed_monitor import SpeedMonitor
 from systems.sensing.tilting_lidar import TiltingLidar, TiltingLidarParams
+from systems.sensing.wanted_torque import WantedTorque
 from systems.signal_log import SignalLog
 from systems.tracking.ik_tracker import IkTracker
 from systems.tracking.whole_body_feedforward import WholeBodyFeedforward
@@ -102,7 +105,9 @@ def standing_plan() -> MotionPlan:
 FACTORIES: dict[type[LeafSystem], Callable[[], LeafSystem]] = {
     BoxMover: lambda: BoxMover([]),
     ComReference: ComReference,
-    ContactMonitor: lambda: ContactMonitor(WatchedGeometry((), (), {}, {}), 0.002),
+    ContactMonitor: lambda: ContactMonitor(
+        WatchedGeometry((), (), (), frozenset(), {}, {}), 0.002, 600.0
+    ),
     Executive: lambda: Executive(ExecutiveParams(), standing_plan()),
     CrossingPlanner: lambda: CrossingPlanner(
         FootstepPlannerParams(),
@@ -145,6 +150,7 @@ FACTORIES: dict[type[LeafSystem], Callable[[], LeafSystem]] = {
         X_BM=RigidTransform(),
     ),
     SignalLog: lambda: SignalLog(0.1),
+    SpeedMonitor: lambda: SpeedMonitor(*robot_alone(), 0.0025),
     Stabilizer: lambda: Stabilizer(StabilizerParams(), JVRC1.sole, 62.4),
     StaircaseMap: StaircaseMap,
     StaticStability: lambda: StaticStability(0.1, 0.1, 0.05, 0.7),
@@ -155,6 +161,7 @@ FACTORIES: dict[type[LeafSystem], Callable[[], LeafSystem]] = {
         scene=triangle_mesh([]),
     ),
     ValueLogSink: lambda: ValueLogSink(Value(""), 0.1),
+    WantedTorque: lambda: WantedTorque(*robot_alone()),
     WholeBodyFeedforward: lambda: WholeBodyFeedforward(_plant(), JVRC1, 100.0),
     ZmpPreviewController: ZmpPreviewController,
 }

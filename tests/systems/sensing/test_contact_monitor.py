@@ -1,120 +1,191 @@
-"""Contacts of the robot with what only its soles may touch."""
+"""What a ball of two parts touches, and with what mean force."""
 
+from dataclasses import dataclass
+
+import numpy as np
 import pytest
-from pydrake.geometry import Box, SceneGraph, Sphere
-from pydrake.math import RigidTransform
-from pydrake.multibody.plant import (
-    AddMultibodyPlant,
-    CoulombFriction,
-    MultibodyPlant,
-    MultibodyPlantConfig,
-)
-from pydrake.multibody.tree import ModelInstanceIndex, SpatialInertia
+from pydrake.multibody.plant import ContactResults
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import DiagramBuilder
 
-from systems.sensing.contact_monitor import (
-    ContactMonitor,
-    WatchedGeometry,
-    watched_geometry,
-)
+from models.solid_names import is_ground
+from systems.ports import Vector, eval_vector
+from systems.sensing.contact_monitor import ContactMonitor
+from systems.sensing.robot_contacts import WatchedGeometry, watched_geometry
 from systems.values import Touches
-
-STEP = 0.002
-FRICTION = CoulombFriction(0.5, 0.5)
+from tests.systems.sensing.ball_scene import FEET, WEIGHT, ball_scene, is_sole
 
 
-def add_scene(plant: MultibodyPlant, solid: str, ball: str) -> ModelInstanceIndex:
-    """A slab with its top at z = 0 and a ball of 1 kg that rests on it."""
-    slab = RigidTransform([0.0, 0.0, -0.5])
-    plant.RegisterCollisionGeometry(
-        plant.world_body(), slab, Box(4.0, 4.0, 1.0), solid, FRICTION
-    )
-    robot = plant.AddModelInstance("robot")
-    body = plant.AddRigidBody(
-        "SHIN", robot, SpatialInertia.SolidSphereWithMass(1.0, 0.1)
-    )
-    plant.RegisterCollisionGeometry(body, RigidTransform(), Sphere(0.1), ball, FRICTION)
-    return robot
+@dataclass(frozen=True)
+class Seen:
+    """What the monitor says at the end."""
+
+    touches: Touches
+    touching: float
+    foot_forces: Vector
+    other_support: float
+    impact: Vector
+    friction_ratio: float
 
 
 def simulate(
+    ball: str = "shin",
     solid: str = "staircase/step_1",
-    ball: str = "SHIN_hull",
     height: float = 0.1,
     duration: float = 1.0,
-) -> tuple[Touches, float, WatchedGeometry]:
-    """Lets the ball go at a height of its centre; what the monitor says at the end."""
-    builder = DiagramBuilder()
-    config = MultibodyPlantConfig(time_step=STEP, contact_model="point")
-    plant, scene_graph = AddMultibodyPlant(config, builder)
-    robot = add_scene(plant, solid, ball)
-    plant.Finalize()
-    body = plant.GetBodyByName("SHIN")
-    plant.SetDefaultFloatingBaseBodyPose(body, RigidTransform([0.0, 0.0, height]))
+    step: float = 0.002,
+    slope: float = 0.0,
+    solver: str = "lagged",
+) -> Seen:
+    """Lets a ball go at a height of its centre above a slab."""
+    scene = ball_scene({solid: 0.0}, {ball: (0.0, height)}, step, slope, solver)
     watched = watched_geometry(
-        plant,
-        scene_graph.model_inspector(),
-        robot,
-        "staircase/",
-        lambda name: name.rpartition("::")[2].startswith("sole"),
+        scene.plant,
+        scene.scene_graph.model_inspector(),
+        scene.robot,
+        FEET,
+        is_sole,
+        is_ground,
     )
-    monitor = builder.AddNamedSystem("monitor", ContactMonitor(watched, STEP))
+    builder: DiagramBuilder = scene.builder
+    monitor = builder.AddNamedSystem("monitor", ContactMonitor(watched, step, WEIGHT))
     builder.Connect(
-        plant.get_contact_results_output_port(), monitor.GetInputPort("contact_results")
+        scene.plant.get_contact_results_output_port(),
+        monitor.GetInputPort("contact_results"),
     )
     simulator = Simulator(builder.Build())
     simulator.AdvanceTo(duration)
     context = monitor.GetMyContextFromRoot(simulator.get_context())
-    touches = monitor.GetOutputPort("touches").Eval(context)
-    touching = monitor.GetOutputPort("touching").Eval(context)[0]
-    return touches, touching, watched
+
+    def vector(port: str) -> Vector:
+        return eval_vector(monitor.GetOutputPort(port), context)
+
+    return Seen(
+        monitor.GetOutputPort("touches").Eval(context),
+        float(vector("touching")[0]),
+        vector("foot_forces"),
+        float(vector("other_support")[0]),
+        vector("impact"),
+        float(vector("friction_ratio")[0]),
+    )
 
 
-def test_resting_part_is_named_with_duration_and_force() -> None:
-    """A ball that rests weighs what it weighs, for as long as it rests."""
-    touches, touching, _ = simulate(height=0.0995)
-    (touch,) = touches.touches
-    assert (touch.body, touch.solid) == ("SHIN", "staircase/step_1")
-    assert touching == 1.0
+@pytest.mark.parametrize("solid", ["staircase/step_1", "box/trunk", "room/floor"])
+def test_resting_part_is_named_with_duration_and_force(solid: str) -> None:
+    """A shin that rests weighs what it weighs, whatever it rests on."""
+    seen = simulate("shin", solid, height=0.0995)
+    (touch,) = seen.touches.touches
+    assert (touch.body, touch.solid) == ("SHIN", solid)
+    assert seen.touching == 1.0
     assert touch.duration == pytest.approx(1.0, abs=0.02)
-    assert touch.peak_force >= 9.81 * 0.99
+    assert touch.peak_force >= WEIGHT * 0.99
+    assert seen.other_support == pytest.approx(WEIGHT, rel=0.01)
+    np.testing.assert_allclose(seen.foot_forces, 0.0)
 
 
-def test_the_peak_of_an_impact_is_kept() -> None:
+@pytest.mark.parametrize("solid", ["staircase/step_1", "room/floor"])
+def test_a_sole_may_touch_the_ground(solid: str) -> None:
+    """It bears the weight; nothing else does."""
+    seen = simulate("sole", solid, height=0.0995)
+    assert (seen.touches, seen.touching) == (Touches(), 0.0)
+    assert seen.foot_forces[2] == pytest.approx(WEIGHT, rel=0.01)
+    assert seen.other_support == 0.0
+
+
+@pytest.mark.parametrize("solid", ["box/trunk", "room/wall_left", "room/ceiling"])
+def test_a_sole_must_not_touch_anything_else(solid: str) -> None:
+    """Boxes and walls least of all."""
+    (touch,) = simulate("sole", solid, height=0.0995).touches.touches
+    assert (touch.body, touch.solid) == ("LEFT", solid)
+
+
+def test_the_peak_of_a_touch_is_kept() -> None:
     """A ball that has fallen 20 cm strikes harder than it weighs, and then rests."""
-    touches, _, _ = simulate(height=0.3, duration=1.0)
-    (touch,) = touches.touches
+    seen = simulate(height=0.3, duration=1.0)
+    (touch,) = seen.touches.touches
     assert touch.duration == pytest.approx(0.8, abs=0.05)
-    assert touch.peak_force > 20.0 * 9.81
+    assert touch.peak_force > 20.0 * WEIGHT
+
+
+def test_an_impact_is_the_same_at_every_step_and_solver() -> None:
+    """Within a tenth, where a single step says anything between 13 and 130 weights.
+
+    A sole that has fallen for 1.25 cm brings an impulse of m sqrt(2 g h) with it; over
+    10 ms that is 5 weights, and its own weight.
+    """
+    expected = np.sqrt(2.0 * 9.81 * 0.0125) / 0.01 / 9.81 + 1.0
+    for solver in ("lagged", "similar", "sap"):
+        for step in (0.001, 0.0025, 0.005):
+            seen = simulate(
+                "sole", height=0.1125, duration=0.3, step=step, solver=solver
+            )
+            body_weights = seen.impact[0] / WEIGHT
+            assert body_weights == pytest.approx(expected, rel=0.1), (solver, step)
+            assert seen.impact[1] == 0.0
+
+
+def test_the_friction_ratio_is_that_of_a_loaded_foot() -> None:
+    """A ball that rolls down a slope t: 5/7 tan t over 1 + 2/7 tan^2 t; 0 on a level.
+
+    The ground is taken for level, so the slope itself counts.
+    """
+    tan = np.tan(0.4)
+    rolling = simulate("sole", height=0.1 / np.cos(0.4), slope=0.4, duration=0.3)
+    expected = 5.0 / 7.0 * tan / (1.0 + 2.0 / 7.0 * tan**2)
+    assert rolling.friction_ratio == pytest.approx(expected, rel=0.05)
+    level = simulate("sole", height=0.0995, duration=0.3)
+    assert level.friction_ratio == pytest.approx(0.0, abs=1e-3)
+
+
+def test_own_bodies_that_meet_are_a_touch() -> None:
+    """Named both, in one order; their forces are no load of a foot."""
+    scene = ball_scene(
+        {"room/floor": -5.0}, {"shin": (0.0, 0.0), "sole": (0.0, 0.19)}, 0.002
+    )
+    watched = watched_geometry(
+        scene.plant,
+        scene.scene_graph.model_inspector(),
+        scene.robot,
+        FEET,
+        is_sole,
+        is_ground,
+    )
+    monitor = scene.builder.AddNamedSystem(
+        "monitor", ContactMonitor(watched, 0.002, WEIGHT)
+    )
+    scene.builder.Connect(
+        scene.plant.get_contact_results_output_port(),
+        monitor.GetInputPort("contact_results"),
+    )
+    simulator = Simulator(scene.builder.Build())
+    simulator.AdvanceTo(0.02)
+    context = monitor.GetMyContextFromRoot(simulator.get_context())
+    touches = monitor.GetOutputPort("touches").Eval(context)
+    (touch,) = touches.touches
+    assert {touch.body, touch.solid} == {"SHIN", "LEFT"}
+    assert touch.peak_force > 0.0
+    impact = eval_vector(monitor.GetOutputPort("impact"), context)
+    np.testing.assert_allclose(impact, 0.0)
 
 
 @pytest.mark.parametrize(
-    ("solid", "ball"),
-    [("staircase/step_1", "sole_left_00"), ("room/floor", "SHIN_hull")],
+    ("period", "weight", "message"),
+    [
+        (-1.0, 600.0, r"period: must be positive, got -1\.0 s"),
+        (0.002, 0.0, r"weight: must be positive, got 0\.0 N"),
+    ],
 )
-def test_soles_and_other_solids_may_touch(solid: str, ball: str) -> None:
-    """A sole on a step, and anything on the floor, is not reported."""
-    touches, touching, _ = simulate(solid, ball, height=0.0995)
-    assert touches == Touches()
-    assert touching == 0.0
+def test_period_and_weight_must_be_positive(period, weight, message) -> None:
+    """The plant's step, the robot's weight."""
+    watched = WatchedGeometry((), (), (), frozenset(), {}, {})
+    with pytest.raises(ValueError, match=message):
+        ContactMonitor(watched, period, weight)
 
 
-def test_watched_are_bodies_without_soles_and_solids_by_prefix() -> None:
-    """Names come without Drake's scope."""
-    _, _, watched = simulate(duration=0.01)
-    assert watched.bodies == ("SHIN",)
-    assert watched.solids == ("staircase/step_1",)
-
-
-def test_period_must_be_positive() -> None:
-    """It is the plant's step."""
-    plant, scene_graph = MultibodyPlant(STEP), SceneGraph()
-    plant.RegisterAsSourceForSceneGraph(scene_graph)
-    robot = add_scene(plant, "staircase/step_1", "SHIN_hull")
-    plant.Finalize()
-    watched = watched_geometry(
-        plant, scene_graph.model_inspector(), robot, "staircase/", lambda name: False
-    )
-    with pytest.raises(ValueError, match=r"period: must be positive, got -1\.0 s"):
-        ContactMonitor(watched, -1.0)
+def test_without_contacts_nothing_is_touched() -> None:
+    """At the start."""
+    watched = WatchedGeometry(("LEFT",), (0,), (), frozenset(), {}, {})
+    monitor = ContactMonitor(watched, 0.002, WEIGHT)
+    context = monitor.CreateDefaultContext()
+    monitor.GetInputPort("contact_results").FixValue(context, ContactResults())
+    assert monitor.GetOutputPort("touches").Eval(context) == Touches()

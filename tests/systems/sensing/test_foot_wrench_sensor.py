@@ -24,11 +24,7 @@ from models.robot_loader import add_robot
 from models.room import RoomParams
 from models.solids import add_solids
 from systems.ports import Vector, eval_vector
-from systems.sensing.foot_wrench_sensor import (
-    FootWrenchSensor,
-    measured_zmp,
-    sum_wrenches,
-)
+from systems.sensing.foot_wrench_sensor import FootWrenchSensor, sum_wrenches
 from systems.values import FEET
 
 STIFF = replace(JVRC1, gains=dict.fromkeys(JVRC1.gains, JointGains(4000.0, 200.0, 0.1)))
@@ -181,33 +177,3 @@ def test_wrenches_are_those_of_the_contacts(standing: Standing) -> None:
     world = sum_wrenches(results, floor, [RigidTransform()])[0]
     force, moment = in_world(standing)
     np.testing.assert_allclose(world, -np.concatenate([force, moment]), atol=1e-9)
-
-
-def test_zmp_on_feet_of_different_heights_lies_between_them() -> None:
-    """At the heights' mean, weighted by load, where only yaw moment is left."""
-    X_WF = [
-        RigidTransform(RollPitchYaw(0.1, -0.2, 0.3), [0.2, 0.1, 0.4]),
-        RigidTransform(RollPitchYaw(0.0, 0.3, -0.1), [-0.1, -0.1, 0.2]),
-    ]
-    wrenches = np.array(
-        [[5.0, -8.0, 300.0, 3.0, 6.0, 1.0], [-3.0, 2.0, 100.0, -1.0, 2.0, 0.5]]
-    )
-    zmp = measured_zmp(wrenches, X_WF)
-    force, moment, loads = np.zeros(3), np.zeros(3), []
-    for wrench, X in zip(wrenches, X_WF, strict=True):
-        f_W = X.rotation().multiply(wrench[:3])
-        loads.append(f_W[2])
-        force += f_W
-        arm = X.translation() - zmp
-        moment += X.rotation().multiply(wrench[3:]) + np.cross(arm, f_W)
-    np.testing.assert_allclose(moment[:2], 0.0, atol=1e-9)
-    assert zmp[2] == pytest.approx(np.average([0.4, 0.2], weights=loads))
-
-
-def test_nothing_felt_is_no_zmp() -> None:
-    """Neither in flight nor where the feet only graze."""
-    X_WF = [RigidTransform(), RigidTransform()]
-    assert np.isnan(measured_zmp(np.zeros((2, 6)), X_WF)).all()
-    graze = np.zeros((2, 6))
-    graze[:, 2] = 0.4
-    assert np.isnan(measured_zmp(graze, X_WF)).all()

@@ -1,0 +1,67 @@
+"""The rules that no task may break, whatever else becomes of it; pure."""
+
+import numpy as np
+
+from diagrams.evidence import Evidence
+from diagrams.evidence_measures import CLIMBING, goal_error
+from diagrams.task_params import TASKS
+
+GOAL_DISTANCE = 0.10
+"""Within this the robot is at its goal, m."""
+GOAL_TURN = np.deg2rad(10.0)
+"""Within this it faces as it should there, rad."""
+SLIP_MENTIONED = 0.01
+"""Slip that the reason mentions, m."""
+SLIP_ALLOWED = 0.03
+"""A loaded foot slides no farther than this, m."""
+
+
+def broken_rules(
+    evidence: Evidence, speed: tuple[float | None, str | None], slip: float | None
+) -> list[str]:
+    """What speaks against a run, one line each; what was not measured does.
+
+    No joint is faster than its limit, no loaded foot slides by more than
+    `SLIP_ALLOWED`, nothing is touched that must not be; in a task that is finished the
+    goal is reached.
+
+    Args:
+        evidence: of the run.
+        speed: the largest share of a joint's speed limit, and which joint.
+        slip: the farthest that a loaded foot slid, m.
+    """
+    rules = _goal_faults(evidence) if evidence.stop == "finished" else []
+    fraction, joint = speed
+    if fraction is None:
+        rules.append("the joints' speeds were not watched")
+    elif not fraction <= 1.0:
+        rules.append(f"{joint} went at {fraction:.2f} times its speed limit")
+    if slip is None:
+        rules.append("the feet's slip was not measured")
+    elif not slip <= SLIP_ALLOWED:
+        rules.append(f"a loaded foot slid by {1e3 * slip:.0f} mm")
+    if "contact_monitor.other_support" not in evidence.frames:
+        rules.append("what others than the soles bore was not watched")
+    if evidence.touches is None:
+        rules.append("what the robot touched was not watched")
+    for touch in evidence.touches or ():
+        rules.append(
+            f"{touch.body} touched {touch.solid} "
+            f"({1e3 * touch.duration:.0f} ms, up to {touch.peak_force:.0f} N)"
+        )
+    return rules
+
+
+def _goal_faults(evidence: Evidence) -> list[str]:
+    """How a task that the executive calls finished missed its goal."""
+    if evidence.kind == CLIMBING:
+        return [] if evidence.treads else ["there is no staircase to climb"]
+    if evidence.goal is None:
+        return ["its goal is not known"] if evidence.kind in TASKS else []
+    faults = []
+    distance, turn = goal_error(evidence)
+    if not distance <= GOAL_DISTANCE:
+        faults.append(f"the robot stands {distance:.2f} m from the goal")
+    if not turn <= GOAL_TURN:
+        faults.append(f"the robot faces {np.degrees(turn):.0f} deg off the goal's")
+    return faults
