@@ -10,8 +10,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-import open3d
 
+from systems.open3d_loader import open3d
 from systems.ports import Vector
 
 OPEN3D_SUFFIXES = (".pcd", ".ply")

@@ -6,10 +6,10 @@ from functools import lru_cache
 from typing import Any, TypeAlias
 
 import numpy as np
-import open3d as o3d
 from pydrake.math import RigidTransform
 
 from models.solids import TriangleMesh
+from systems.open3d_loader import open3d as o3d
 from systems.ports import Vector
 from systems.values import Value
 

@@ -4,9 +4,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-import open3d as o3d
 import pytest
 
+from systems.open3d_loader import open3d as o3d
 from systems.perception.cloud_files import CloudFileError, read_cloud
 from systems.ports import Vector
 
