@@ -2,6 +2,7 @@
 
 import logging
 import math
+import signal
 import tempfile
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
@@ -13,6 +14,7 @@ import typer
 # What simulates takes seconds to import; every command imports what it needs, so that
 # the help text comes at once.
 if TYPE_CHECKING:
+    from pydrake.geometry import Meshcat
     from rich.console import Console
 
     from diagrams.scenario import Scenario
@@ -23,6 +25,8 @@ RUNS_FOLDER = Path("runs")
 """Where runs go by default."""
 SLOPE = 15.0
 """Of the planes that `segment` keeps, deg; what `PlaneSegmenterParams` has."""
+LOCAL_HOST = "127.0.0.1"
+"""Where `--meshcat` listens by default: nobody else's machine reaches it."""
 DONE, NOT_DONE, BAD_INPUT = 0, 1, 2
 """Exit status: the task was done, it was not, it could not be understood."""
 
@@ -63,6 +67,29 @@ SetOption = Annotated[
 ]
 
 
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        from importlib.metadata import version
+
+        typer.echo(f"footfall {version('footfall')}")
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version",
+            help="Print the version and leave.",
+            callback=_print_version,
+            is_eager=True,
+        ),
+    ] = False,
+) -> None:
+    """Options of the command itself; `help` of the app says what it does."""
+
+
 @app.command("list")
 def list_command() -> None:
     """List the shipped scenarios, a line each."""
@@ -97,6 +124,13 @@ def run(
     meshcat: Annotated[
         bool, typer.Option("--meshcat", help="Show the run live in a browser.")
     ] = False,
+    meshcat_host: Annotated[
+        str,
+        typer.Option(
+            metavar="ADDRESS",
+            help="Interface that --meshcat listens on; '*' for every one.",
+        ),
+    ] = LOCAL_HOST,
 ) -> None:
     """Simulate a scenario closed loop; write the run folder; print the summary.
 
@@ -105,7 +139,7 @@ def run(
     with _bad_input_in_one_line():
         chosen = _load(scenario, overrides, seed)
         folder = _free_folder(chosen, out)
-        summary = _simulate(chosen, folder, meshcat)
+        summary = _simulate(chosen, folder, meshcat_host if meshcat else None)
     from diagrams.summary_table import print_summary
 
     print_summary(summary, folder)
@@ -285,20 +319,21 @@ def _require_writable(out: Path) -> None:
         ) from error
 
 
-def _simulate(scenario: "Scenario", folder: Path, live: bool) -> "Summary":
+def _simulate(scenario: "Scenario", folder: Path, host: str | None) -> "Summary":
+    """Runs a scenario; Meshcat shows it at the address, or not at all for None."""
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
+    from diagrams.illustrations import illustrate
+    from diagrams.simulation import run_task
+    from diagrams.tasks import build_task
+
+    # While it imported there was nothing to keep; from here on Ctrl-C is an exception.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     console = Console(stderr=True)
     with _status(console, "building the diagram"):
-        from pydrake.geometry import Meshcat
-
-        from diagrams.illustrations import illustrate
-        from diagrams.simulation import run_task
-        from diagrams.tasks import build_task
-
         _quiet_drake()
-        meshcat = Meshcat() if live else None
+        meshcat = None if host is None else _start_meshcat(host)
         task = build_task(scenario, meshcat)
     if meshcat is not None:
         console.print(f"watch at {meshcat.web_url()}")
@@ -320,12 +355,21 @@ def _simulate(scenario: "Scenario", folder: Path, live: bool) -> "Summary":
             progress=lambda time, activity: bar.update(
                 job, completed=time, activity=activity
             ),
-            realtime_rate=1.0 if live else 0.0,
+            realtime_rate=0.0 if meshcat is None else 1.0,
         )
     with _status(console, "drawing figures, replay and block diagram"):
         for complaint in illustrate(folder, task.diagram):
             console.print(f"footfall: {complaint}", style="yellow", highlight=False)
     return summary
+
+
+def _start_meshcat(host: str) -> "Meshcat":
+    from diagrams.live_view import meshcat_at
+
+    try:
+        return meshcat_at(host)
+    except RuntimeError as error:
+        raise OptionError(f"--meshcat-host {host}: {error}") from error
 
 
 def _status(console: "Console", doing: str) -> AbstractContextManager[object]:
@@ -378,7 +422,7 @@ def _message(error: Exception) -> str:
     """What the system says of a file comes with its name first, as ours does."""
     if isinstance(error, OSError) and error.filename is not None and error.strerror:
         return f"{error.filename}: {error.strerror}"
-    return str(error)
+    return getattr(error, "strerror", None) or str(error)
 
 
 def _bad_input_errors() -> tuple[type[Exception], ...]:

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from diagrams.cli import SLOPE, app
+from diagrams.cli import LOCAL_HOST, SLOPE, app
+from diagrams.live_view import LOCAL_HOST as DEFAULT_HOST
 from diagrams.scenario import list_scenarios, save_scenario
 from diagrams.signals import load_run
 from systems.perception.segmenter_params import PlaneSegmenterParams
@@ -176,6 +177,37 @@ def test_a_programming_error_is_no_bad_input(stand, monkeypatch) -> None:
     monkeypatch.setattr(sys.modules["diagrams.tasks"], "build_task", broken)
     with pytest.raises(AssertionError, match="a bug"):
         CliRunner().invoke(app, ["run", str(stand)], catch_exceptions=False)
+
+
+def test_meshcat_listens_where_it_is_told(stand, tmp_path, monkeypatch) -> None:
+    """On this machine by default; an interface that is not there is named."""
+    seen = []
+
+    def meshcat_at(host):
+        if host == "192.0.2.1":
+            raise RuntimeError("no such interface")
+        seen.append(host)
+
+    monkeypatch.setattr("diagrams.live_view.meshcat_at", meshcat_at)
+    footfall("run", stand, "--out", tmp_path / "a", "--meshcat")
+    footfall("run", stand, "--out", tmp_path / "b", "--meshcat", "--meshcat-host", "*")
+    footfall("run", stand, "--out", tmp_path / "c")
+    assert seen == [LOCAL_HOST, "*"]
+    assert LOCAL_HOST == DEFAULT_HOST
+    result = footfall("run", stand, "--meshcat", "--meshcat-host", "192.0.2.1")
+    assert result.exit_code == 2
+    assert result.stderr == "footfall: --meshcat-host 192.0.2.1: no such interface\n"
+
+
+def test_ctrl_c_before_anything_is_simulated(stand, monkeypatch) -> None:
+    """Status 130, and nothing is said."""
+
+    def interrupted(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(sys.modules["diagrams.tasks"], "build_task", interrupted)
+    result = footfall("run", stand)
+    assert (result.exit_code, result.output) == (130, "")
 
 
 def test_pictures_of_a_run_are_made_again(stand, tmp_path) -> None:
