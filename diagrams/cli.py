@@ -280,6 +280,9 @@ def diagram(
 
 def main() -> None:
     """Runs the command line."""
+    logging.basicConfig(format="%(name)s: %(message)s")
+    # It too warns of a cache that cannot be written, and makes do without.
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)
     app()
 
 

@@ -21,8 +21,7 @@ def footfall(*arguments: object, **options: object) -> subprocess.CompletedProce
         check=False,
         text=True,
         stderr=subprocess.PIPE,
-        env=ENVIRONMENT,
-        **{"stdout": subprocess.PIPE, **options},
+        **{"stdout": subprocess.PIPE, "env": ENVIRONMENT, **options},
     )
 
 
@@ -70,3 +69,16 @@ def test_ctrl_c_while_it_imports(imported: str, tmp_path: Path) -> None:
     assert process.returncode == 130
     assert all(line.startswith("import time:") for line in rest.splitlines())
     assert not (tmp_path / "out").exists()
+
+
+def test_a_read_only_cache_is_told_in_a_line(tmp_path: Path) -> None:
+    """Of all the libraries that want one; then the work goes on."""
+    (tmp_path / "file").write_bytes(b"")
+    environment = {**ENVIRONMENT, "XDG_CACHE_HOME": str(tmp_path / "file")}
+    environment.pop("MPLCONFIGDIR", None)
+    short = ("--set", "simulation.max_time=0.02", "--out", tmp_path / "run")
+    result = footfall("run", "stairs-exp1", *short, env=environment)
+    assert result.stdout.startswith("timed_out")
+    assert (tmp_path / "run" / "figures").is_dir()
+    (line,) = result.stderr.splitlines()
+    assert line.startswith(f"footfall: cannot write the cache {tmp_path}")
