@@ -3,6 +3,7 @@
 import logging
 import math
 import signal
+import sys
 import tempfile
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
@@ -93,10 +94,9 @@ def options(
 @app.command("list")
 def list_command() -> None:
     """List the shipped scenarios, a line each."""
-    from diagrams.scenario import list_scenarios
+    from diagrams.shipped import list_scenarios
 
-    with _bad_input_in_one_line():
-        scenarios = list_scenarios()
+    scenarios = list_scenarios()
     width = max(len(name) for name, _ in scenarios)
     for name, description in scenarios:
         typer.echo(f"{name:<{width}}  {description}")
@@ -429,10 +429,14 @@ def _message(error: Exception) -> str:
 
 
 def _bad_input_errors() -> tuple[type[Exception], ...]:
-    from diagrams.scenario import ScenarioError
-    from diagrams.signals import RunError
-    from systems.perception.cloud_files import CloudFileError
-    from systems.perception.environment_xml import EnvironmentFileError
-
-    own = (ScenarioError, RunError, CloudFileError, EnvironmentFileError, OptionError)
-    return *own, OSError
+    """Those of what was imported; what was not has raised nothing."""
+    homes = (
+        ("diagrams.scenario", "ScenarioError"),
+        ("diagrams.signals", "RunError"),
+        ("systems.perception.cloud_files", "CloudFileError"),
+        ("systems.perception.environment_xml", "EnvironmentFileError"),
+    )
+    own = [
+        getattr(sys.modules[home], name) for home, name in homes if home in sys.modules
+    ]
+    return OptionError, OSError, *own

@@ -11,7 +11,6 @@ from pathlib import Path
 
 import numpy as np
 
-from systems.open3d_loader import open3d
 from systems.ports import Vector
 
 OPEN3D_SUFFIXES = (".pcd", ".ply")
@@ -77,6 +76,8 @@ def read_cloud(path: Path) -> Vector:
 
 
 def _read_open3d(path: Path) -> Vector:
+    from systems.open3d_loader import open3d
+
     declared = _declared_points(path)
     if declared is None:
         raise CloudFileError(path, f"is no {path.suffix.lower()} file")

@@ -9,10 +9,10 @@ import pytest
 from diagrams.scenario import (
     Scenario,
     ScenarioError,
-    list_scenarios,
     load_scenario,
     save_scenario,
 )
+from diagrams.shipped import list_scenarios
 
 STAIRS = "scene: {staircase: {rise: 0.1}}"
 
