@@ -7,7 +7,6 @@ from contextlib import contextmanager
 from html import escape
 from typing import NamedTuple
 
-import pygraphviz  # type: ignore[import-untyped]
 from pydrake.systems.framework import Diagram, PortDataType, System
 
 from systems.signal_log import SignalLog
@@ -104,6 +103,9 @@ def block_diagram_svg(diagram: Diagram, title: str) -> str:
     Blocks are coloured by what they are for; wires that carry vectors are solid and
     blue, those that carry abstract values dashed and brown.
     """
+    # Where its X11 libraries are missing, all but this one picture can be drawn.
+    import pygraphviz  # type: ignore[import-untyped]
+
     blocks, wires = topology(diagram)
     graph = pygraphviz.AGraph(directed=True, strict=False)
     graph.graph_attr.update(

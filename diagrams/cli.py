@@ -2,8 +2,10 @@
 
 import logging
 import math
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -21,6 +23,8 @@ if TYPE_CHECKING:
 
 SLOPE = 15.0
 """Of the planes that `segment` keeps, deg; what `PlaneSegmenterParams` has."""
+LOCAL_HOST = "127.0.0.1"
+"""Where `--meshcat` listens by default: nobody else's machine reaches it."""
 DONE, NOT_DONE, BAD_INPUT = 0, 1, 2
 """Exit status: the task was done, it was not, it could not be understood."""
 
@@ -62,13 +66,35 @@ SetOption = Annotated[
 ]
 
 
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        from importlib.metadata import version
+
+        typer.echo(f"footfall {version('footfall')}")
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version",
+            help="Print the version and leave.",
+            callback=_print_version,
+            is_eager=True,
+        ),
+    ] = False,
+) -> None:
+    """Options of the command itself; `help` of the app says what it does."""
+
+
 @app.command("list")
 def list_command() -> None:
     """List the shipped scenarios, a line each."""
-    from diagrams.scenario import list_scenarios
+    from diagrams.shipped import list_scenarios
 
-    with _bad_input_in_one_line():
-        scenarios = list_scenarios()
+    scenarios = list_scenarios()
     width = max(len(name) for name, _ in scenarios)
     for name, description in scenarios:
         typer.echo(f"{name:<{width}}  {description}")
@@ -96,6 +122,13 @@ def run(
     meshcat: Annotated[
         bool, typer.Option("--meshcat", help="Show the run live in a browser.")
     ] = False,
+    meshcat_host: Annotated[
+        str,
+        typer.Option(
+            metavar="ADDRESS",
+            help="Interface that --meshcat listens on; '*' for every one.",
+        ),
+    ] = LOCAL_HOST,
 ) -> None:
     """Simulate a scenario closed loop; write the run folder; print the summary.
 
@@ -109,7 +142,7 @@ def run(
         _quiet_drake()
         changes = list(overrides or [])
         chosen = _load(scenario, changes, seed)
-        show = _start_meshcat if meshcat else None
+        show = partial(_start_meshcat, meshcat_host) if meshcat else None
         with StopSignals() as stop, _run_ends_in_one_line(stop):
             summary = run_scenario(chosen, changes, out, build_task, stop, show)
     raise typer.Exit(DONE if summary.outcome == "completed" else NOT_DONE)
@@ -252,6 +285,9 @@ def diagram(
 
 def main() -> None:
     """Runs the command line."""
+    logging.basicConfig(format="%(name)s: %(message)s")
+    # It too warns of a cache that cannot be written, and makes do without.
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)
     app()
 
 
@@ -262,6 +298,15 @@ def _load(name: str, overrides: list[str] | None, seed: int | None) -> "Scenario
     if seed is not None:
         changes.append(f"simulation.seed={seed}")
     return load_scenario(name, changes)
+
+
+def _start_meshcat(host: str) -> "Meshcat":
+    from diagrams.live_view import meshcat_at
+
+    try:
+        return meshcat_at(host)
+    except RuntimeError as error:
+        raise OptionError(f"--meshcat-host {host}: {error}") from error
 
 
 def _parse_direction(text: str) -> "Vector":
@@ -290,12 +335,6 @@ def _parse_slope(degrees: float) -> float:
 def _quiet_drake() -> None:
     """Drake tells of every port that Meshcat opens; a person did not ask."""
     logging.getLogger("drake").setLevel(logging.ERROR)
-
-
-def _start_meshcat() -> "Meshcat":
-    from pydrake.geometry import Meshcat
-
-    return Meshcat()
 
 
 @contextmanager
@@ -330,15 +369,19 @@ def _message(error: Exception) -> str:
     """What the system says of a file comes with its name first, as ours does."""
     if isinstance(error, OSError) and error.filename is not None and error.strerror:
         return f"{error.filename}: {error.strerror}"
-    return str(error)
+    return getattr(error, "strerror", None) or str(error)
 
 
 def _bad_input_errors() -> tuple[type[Exception], ...]:
-    from diagrams.run_folder import OutError
-    from diagrams.scenario import ScenarioError
-    from diagrams.signals import RunError
-    from systems.perception.cloud_files import CloudFileError
-    from systems.perception.environment_xml import EnvironmentFileError
-
-    own = (ScenarioError, RunError, CloudFileError, EnvironmentFileError)
-    return *own, OptionError, OutError, OSError
+    """Those of what was imported; what was not has raised nothing."""
+    homes = (
+        ("diagrams.run_folder", "OutError"),
+        ("diagrams.scenario", "ScenarioError"),
+        ("diagrams.signals", "RunError"),
+        ("systems.perception.cloud_files", "CloudFileError"),
+        ("systems.perception.environment_xml", "EnvironmentFileError"),
+    )
+    own = [
+        getattr(sys.modules[home], name) for home, name in homes if home in sys.modules
+    ]
+    return OptionError, OSError, *own

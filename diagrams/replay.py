@@ -8,6 +8,7 @@ from pydrake.multibody.plant import AddMultibodyPlantSceneGraph
 from pydrake.systems.framework import DiagramBuilder
 
 from diagrams.evidence import STATE_SIGNAL
+from diagrams.live_view import meshcat_at
 from diagrams.run_data import mover_positions
 from diagrams.signal_files import whole_file
 from diagrams.signals import RunError, load_run
@@ -69,7 +70,7 @@ def replay_html(
         )
     positions = state[:, : plant.num_positions(instance)]
     rate = min(FRAME_RATE, MAX_FRAMES / max(float(time[-1] - time[0]), 1e-3))
-    meshcat = Meshcat()
+    meshcat = meshcat_at()
     for path in ("/Grid", "/Axes"):
         meshcat.SetProperty(path, "visible", False)
     params = MeshcatVisualizerParams()

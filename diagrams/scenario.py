@@ -4,7 +4,6 @@ import difflib
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from importlib import resources
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +19,7 @@ from diagrams.schema import (
     set_field,
     validate,
 )
+from diagrams.shipped import shipped_scenarios
 from diagrams.task_params import TaskParams
 from models.jvrc1 import JVRC1
 from models.robot import RobotModel
@@ -336,24 +336,9 @@ def save_scenario(scenario: Scenario, path: str | Path) -> None:
     Path(path).write_text(text, encoding="utf-8")
 
 
-def list_scenarios() -> tuple[tuple[str, str], ...]:
-    """Name and description of every shipped scenario, by name."""
-    return tuple((name, load_scenario(name).description) for name in sorted(_shipped()))
-
-
-def _shipped() -> dict[str, str]:
-    """Text of every shipped scenario by name."""
-    folder = resources.files("diagrams.scenarios")
-    return {
-        item.name.removesuffix(".yaml"): item.read_text(encoding="utf-8")
-        for item in folder.iterdir()
-        if item.name.endswith(".yaml")
-    }
-
-
 def _read(name_or_path: str | Path) -> tuple[str, str, str]:
     """What to call the scenario in messages, its name unless it has one, its text."""
-    path, shipped = Path(name_or_path), _shipped()
+    path, shipped = Path(name_or_path), shipped_scenarios()
     if str(name_or_path) in shipped:
         name = str(name_or_path)
         return f"{name}.yaml", name, shipped[name]

@@ -2,8 +2,6 @@
 
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
-from pathlib import Path
-from urllib.parse import unquote, urlparse
 
 import numpy as np
 import trimesh
@@ -33,8 +31,7 @@ def collision_hulls(robot: RobotModel) -> tuple[CollisionHull, ...]:
         mesh = link.find("collision/geometry/mesh")
         if mesh is None:
             continue
-        path = Path(unquote(urlparse(mesh.attrib["filename"]).path))
-        hull = trimesh.load_mesh(path)
+        hull = trimesh.load_mesh(mesh.attrib["filename"].removeprefix("file://"))
         vertices = np.unique(np.asarray(hull.vertices, dtype=np.float64), axis=0)
         hulls.append(CollisionHull(link.attrib["name"], vertices))
     return tuple(hulls)

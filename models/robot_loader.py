@@ -9,10 +9,10 @@ actuator with the URDF's effort limit and a servo.
 
 import hashlib
 import json
-import os
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -31,6 +31,7 @@ from pydrake.multibody.plant import CoulombFriction, MultibodyPlant
 from pydrake.multibody.tree import JointActuator, ModelInstanceIndex, PdControllerGains
 from trimesh.exchange.gltf import export_gltf
 
+from models.mesh_cache import cached_files
 from models.robot import RobotModel
 from systems.ports import Vector
 from systems.values import FEET
@@ -158,19 +159,26 @@ def prepared_urdf(robot: RobotModel) -> str:
     folder = _cache_folder(robot)
     for link, visual in _visuals(root):
         name = link.attrib["name"]
-        visual_file, hull_file = folder / f"{name}.gltf", folder / f"{name}.obj"
-        if not (visual_file.exists() and hull_file.exists()):
-            _convert(robot, name, visual, visual_file, hull_file)
-        _mesh(visual).set("filename", visual_file.as_uri())
+        visual_file, hull_file = cached_files(
+            folder,
+            (f"{name}.gltf", f"{name}.obj"),
+            partial(_convert, robot, name, visual),
+        )
+        _mesh(visual).set("filename", _uri(visual_file))
         collision = link.find("collision")
         if collision is not None:
             link.remove(collision)
         collision = ET.SubElement(link, "collision", {"name": f"{name}_hull"})
         geometry = ET.SubElement(collision, "geometry")
-        hull = ET.SubElement(geometry, "mesh", {"filename": hull_file.as_uri()})
+        hull = ET.SubElement(geometry, "mesh", {"filename": _uri(hull_file)})
         ET.SubElement(hull, "drake:declare_convex")
     root.set("xmlns:drake", "http://drake.mit.edu")
     return ET.tostring(root, encoding="unicode")
+
+
+def _uri(path: Path) -> str:
+    """As Drake reads it: `Path.as_uri` writes %20 for a blank, which stays a %20."""
+    return f"file://{path}"
 
 
 def _visuals(root: ET.Element) -> Iterator[tuple[ET.Element, ET.Element]]:
@@ -211,18 +219,14 @@ def _origin(visual: ET.Element) -> Vector:
 
 def _cache_folder(robot: RobotModel) -> Path:
     digest = hashlib.sha256(robot.urdf.read_bytes()).hexdigest()[:12]
-    folder = user_cache_path("footfall") / f"{robot.name}-{CACHE_VERSION}-{digest}"
-    folder.mkdir(parents=True, exist_ok=True)
-    return folder
+    return user_cache_path("footfall") / f"{robot.name}-{CACHE_VERSION}-{digest}"
 
 
-def _convert(
-    robot: RobotModel, name: str, visual: ET.Element, visual_file: Path, hull_file: Path
-) -> None:
+def _convert(robot: RobotModel, name: str, visual: ET.Element) -> tuple[bytes, bytes]:
+    """The mesh of a body as glTF to be seen, and its convex hull as OBJ to be met."""
     scene = trimesh.load_scene(_source(robot, visual))
     scene.apply_transform(_Z_UP_TO_Y_UP)  # type: ignore[no-untyped-call]
     files = export_gltf(scene, embed_buffers=True)  # type: ignore[no-untyped-call]
-    _write_atomically(visual_file, _opaque(files["model.gltf"]))
     mesh = _load(robot, visual)
     mesh.apply_transform(_origin(visual))
     vertices = np.asarray(mesh.vertices)
@@ -230,7 +234,7 @@ def _convert(
         lowest = -robot.sole.ankle_height + SOLE_CLEARANCE
         vertices = np.vstack([vertices[vertices[:, 2] >= lowest], _cut(mesh, lowest)])
     hull = trimesh.convex.convex_hull(vertices)
-    _write_atomically(hull_file, hull.export(file_type="obj").encode())
+    return _opaque(files["model.gltf"]), hull.export(file_type="obj").encode()
 
 
 def _opaque(gltf: bytes) -> bytes:
@@ -256,13 +260,6 @@ def _cut(mesh: trimesh.Trimesh, height: float) -> Vector:
     share = (height - a[:, 2]) / (b[:, 2] - a[:, 2])
     cut: Vector = a + share[:, None] * (b - a)
     return cut
-
-
-def _write_atomically(path: Path, data: bytes) -> None:
-    """Another process may prepare the same robot at the same time."""
-    partial = path.with_suffix(f".{os.getpid()}.partial")
-    partial.write_bytes(data)
-    partial.replace(path)
 
 
 def _add_soles(

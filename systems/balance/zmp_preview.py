@@ -11,7 +11,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import solve_banded, solve_discrete_are
-from scipy.signal import oaconvolve
 
 from models.validation import Parameters, number
 from systems.ports import Vector
@@ -188,6 +187,9 @@ def generate(
     Raises:
         ValueError: zmp_ref is not (n, 2) with n of at least 1, or not finite.
     """
+    # scipy.signal brings scipy.stats along, which takes longer than the rest of SciPy.
+    from scipy.signal import oaconvolve
+
     zmp_ref = check_reference(zmp_ref)
     start = rest_state(zmp_ref[0]) if initial_state is None else initial_state
     n, N = len(zmp_ref), gains.horizon

@@ -3,10 +3,10 @@
 from typing import Any
 
 import numpy as np
-import open3d as o3d
 import pytest
 
 from models.jvrc1 import JVRC1
+from systems.open3d_loader import open3d as o3d
 from systems.perception.plane_segmentation import segment_planes
 from systems.perception.segmenter_params import PlaneSegmenterParams
 from systems.ports import Vector

@@ -10,10 +10,10 @@ import yaml
 from diagrams.scenario import (
     Scenario,
     ScenarioError,
-    list_scenarios,
     load_scenario,
     save_scenario,
 )
+from diagrams.shipped import list_scenarios
 
 STAIRS = "scene: {staircase: {rise: 0.1}}"
 

@@ -285,8 +285,8 @@ def test_meshes_are_converted_once(cache: Path, monkeypatch) -> None:
     first = prepared_urdf(JVRC1)
     (folder,) = cache.iterdir()
     written = {path.name: path.stat().st_mtime_ns for path in folder.iterdir()}
-    assert len(written) == 2 * len(body_meshes(JVRC1))
-    monkeypatch.setattr(robot_loader, "_convert", None)
+    assert len(written) == 4 * len(body_meshes(JVRC1))  # each with its digest
+    monkeypatch.delattr(robot_loader.trimesh, "load_scene")
     assert prepared_urdf(JVRC1) == first
     after = {path.name: path.stat().st_mtime_ns for path in folder.iterdir()}
     assert after == written
@@ -322,6 +322,24 @@ def test_processes_do_not_write_to_the_same_file(cache: Path, monkeypatch) -> No
     assert partial
     assert all(name.endswith(f".{os.getpid()}.partial") for name in partial)
     assert not list(cache.rglob("*.partial"))
+
+
+@pytest.mark.parametrize("name", ["ä b", "50%20 & 'more'"])
+def test_the_cache_may_lie_anywhere(tmp_path: Path, monkeypatch, name: str) -> None:
+    """Drake opens every mesh, wherever the user's folder is."""
+    monkeypatch.setattr(robot_loader, "user_cache_path", lambda _: tmp_path / name)
+    plant, scene_graph = MultibodyPlant(0.0), SceneGraph()
+    plant.RegisterAsSourceForSceneGraph(scene_graph)
+    instance = add_robot(plant, scene_graph, JVRC1)
+    plant.Finalize()
+    inspector = scene_graph.model_inspector()
+    body = plant.GetBodyByName(JVRC1.base_body, instance)
+    (visual,) = plant.GetVisualGeometriesForBody(body)
+    path = inspector.GetShape(visual).source().path()
+    assert Path(path).is_relative_to(tmp_path / name)
+    assert Path(path).is_file()
+    (hull, *_) = plant.GetCollisionGeometriesForBody(body)
+    assert inspector.GetConvexHull(hull).num_vertices() > 3
 
 
 def test_another_description_has_another_cache(cache: Path, tmp_path: Path) -> None:
