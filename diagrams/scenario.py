@@ -12,6 +12,7 @@ from pydrake.common.yaml import yaml_dump, yaml_dump_typed, yaml_load_typed
 
 from diagrams.schema import FieldError, Mapping, check, parse_yaml, set_field, validate
 from diagrams.task_params import TaskParams
+from models.contact_geometry import CONTACT_MODELS
 from models.jvrc1 import JVRC1
 from models.robot import RobotModel
 from models.room_obstacles import place_boxes
@@ -46,6 +47,8 @@ from systems.tracking.whole_body_ik import IkParams
 
 ROBOTS: dict[str, RobotModel] = {"jvrc1": JVRC1}
 """The robots that a scenario may name."""
+APPROXIMATIONS = ("lagged", "similar", "sap")
+"""What Drake offers of its contact problem that is convex."""
 
 
 class ScenarioError(ValueError):
@@ -141,6 +144,11 @@ class SimulationParams:
 
     time_step: float = 0.0025
     """Step of the plant, s."""
+    contact_model: str = "hydroelastic"
+    """How soles meet the ground: "hydroelastic" (rubber that carries wherever something
+    is under it), or "point" (six small spheres)."""
+    contact_approximation: str = "lagged"
+    """How Drake solves contact: "lagged", "similar" or "sap"."""
     max_time: float = 120.0
     """When the run is given up, s of simulated time."""
     seed: int = 0
@@ -153,6 +161,10 @@ class SimulationParams:
             ValueError: "field: reason, got x" for the first field that is wrong.
         """
         require_positive("time_step", self.time_step, "s")
+        require_one_of("contact_model", self.contact_model, CONTACT_MODELS)
+        require_one_of(
+            "contact_approximation", self.contact_approximation, APPROXIMATIONS
+        )
         require_positive("max_time", self.max_time, "s")
         require_at_least("seed", self.seed, 0)
 

@@ -3,6 +3,7 @@
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
 from pydrake.geometry import SceneGraph
@@ -18,9 +19,10 @@ from pydrake.systems.primitives import ZeroOrderHold
 
 from diagrams.scenario import Scenario
 from diagrams.wiring import add_system
+from models.contact_geometry import ContactModel, is_sole
 from models.mover import add_movers
 from models.robot import RobotModel
-from models.robot_loader import add_robot, body_meshes, is_sole
+from models.robot_loader import add_robot, body_meshes
 from models.solids import add_solids, triangle_mesh
 from systems.disturbance.box_mover import BoxMotion, BoxMover
 from systems.disturbance.pusher import Push, Pusher
@@ -34,6 +36,12 @@ from systems.sensing.tilting_lidar import TiltingLidar
 
 FURNITURE = ("box/", "room/wall", "room/ceiling")
 """What a robot in a room must not touch, with its soles neither."""
+DRAKE_CONTACT_MODELS = {
+    "hydroelastic": "hydroelastic_with_fallback",
+    "point": "point",
+}
+"""What Drake calls the contact models; bodies that are no soles meet in points in both.
+"""
 STAIRCASE_PREFIX = "staircase/"
 """What the names of the staircase's solids begin with."""
 
@@ -95,15 +103,17 @@ def add_station(
     Returns:
         What the rest of a diagram connects to.
     """
+    simulation = scenario.simulation
     config = MultibodyPlantConfig(
-        time_step=scenario.simulation.time_step,
-        contact_model="point",
-        discrete_contact_approximation="lagged",
+        time_step=simulation.time_step,
+        contact_model=DRAKE_CONTACT_MODELS[simulation.contact_model],
+        discrete_contact_approximation=simulation.contact_approximation,
     )
     plant, scene_graph = AddMultibodyPlant(config, builder)
     plant.set_name("plant")
     scene_graph.set_name("scene_graph")
-    instance = add_robot(plant, scene_graph, robot)
+    contact_model = cast(ContactModel, simulation.contact_model)
+    instance = add_robot(plant, scene_graph, robot, contact_model)
     add_solids(plant, scenario.scene.solids())
     movers = add_movers(plant, scenario.scene.movers)
     plant.Finalize()

@@ -27,7 +27,7 @@ class BoxParams:
     size: list[float] = field(default_factory=lambda: [0.05, 1.0, 0.15])
     """Side lengths along its x, y and z, m (obstacle paper: 5 cm thick, 15 cm high)."""
     friction: float = 0.8
-    """Coulomb friction coefficient of its surface."""
+    """Coulomb friction coefficient between its surface and a sole."""
 
     def validate(self) -> None:
         """Checks every field.

@@ -18,24 +18,19 @@ from pathlib import Path
 import numpy as np
 import trimesh
 from platformdirs import user_cache_path
-from pydrake.geometry import (
-    CollisionFilterDeclaration,
-    GeometrySet,
-    ProximityProperties,
-    SceneGraph,
-    Sphere,
-)
+from pydrake.geometry import SceneGraph
 from pydrake.math import RigidTransform, RollPitchYaw
 from pydrake.multibody.parsing import Parser
-from pydrake.multibody.plant import CoulombFriction, MultibodyPlant
+from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import JointActuator, ModelInstanceIndex, PdControllerGains
 from trimesh.exchange.gltf import export_gltf
 
+from models.contact_geometry import SOLE_THICKNESS, ContactModel, add_soles
 from models.robot import RobotModel
+from models.self_collision import filter_neighbours
 from systems.ports import Vector
-from systems.values import FEET
 
-CACHE_VERSION = "3"
+CACHE_VERSION = "4"
 _Z_UP_TO_Y_UP = np.array(
     [
         [1.0, 0.0, 0.0, 0.0],
@@ -45,13 +40,11 @@ _Z_UP_TO_Y_UP = np.array(
     ]
 )
 """glTF's y points up; readers turn it back."""
-SOLE_PREFIX = "sole"
-"""What the names of the sole's contact geometries begin with."""
-SPHERE_RADIUS = 0.005
-"""Radius of the spheres a sole touches the ground with, m."""
-SOLE_CLEARANCE = 0.012
+SOLE_CLEARANCE = SOLE_THICKNESS + 0.002
 """The foot's hull is cut off this far above the sole, m, so that the sole alone meets
 the ground it stands on."""
+VOXELS = 400_000
+"""With so many a concave surface is cut into convex pieces."""
 
 
 @dataclass(frozen=True)
@@ -96,7 +89,10 @@ def body_meshes(robot: RobotModel) -> tuple[BodyMesh, ...]:
 
 
 def add_robot(
-    plant: MultibodyPlant, scene_graph: SceneGraph, robot: RobotModel
+    plant: MultibodyPlant,
+    scene_graph: SceneGraph,
+    robot: RobotModel,
+    contact_model: ContactModel = "hydroelastic",
 ) -> ModelInstanceIndex:
     """Adds the robot with a floating base, actuators, servos and contact geometry.
 
@@ -104,6 +100,7 @@ def add_robot(
         plant: not finalised yet.
         scene_graph: the one that the plant is registered with.
         robot: which robot.
+        contact_model: of the plant; it decides what the soles are made of.
 
     Returns:
         Its model instance.
@@ -124,15 +121,8 @@ def add_robot(
         actuator.set_controller_gains(
             PdControllerGains(p=gains.stiffness, d=gains.damping)
         )
-    _add_soles(plant, instance, robot)
-    ids = [
-        geometry
-        for body in plant.GetBodyIndices(instance)
-        for geometry in plant.GetCollisionGeometriesForBody(plant.get_body(body))
-    ]
-    scene_graph.collision_filter_manager().Apply(
-        CollisionFilterDeclaration().ExcludeWithin(GeometrySet(ids))
-    )
+    add_soles(plant, instance, robot, contact_model)
+    filter_neighbours(plant, scene_graph, instance)
     return instance
 
 
@@ -158,17 +148,22 @@ def prepared_urdf(robot: RobotModel) -> str:
     folder = _cache_folder(robot)
     for link, visual in _visuals(root):
         name = link.attrib["name"]
-        visual_file, hull_file = folder / f"{name}.gltf", folder / f"{name}.obj"
-        if not (visual_file.exists() and hull_file.exists()):
-            _convert(robot, name, visual, visual_file, hull_file)
+        visual_file = folder / f"{name}.gltf"
+        hull_files = [
+            folder / f"{name}_{piece}.obj"
+            for piece in range(robot.convex_pieces.get(name, 1))
+        ]
+        if not all(file.exists() for file in (visual_file, *hull_files)):
+            _convert(robot, name, visual, visual_file, hull_files)
         _mesh(visual).set("filename", visual_file.as_uri())
         collision = link.find("collision")
         if collision is not None:
             link.remove(collision)
-        collision = ET.SubElement(link, "collision", {"name": f"{name}_hull"})
-        geometry = ET.SubElement(collision, "geometry")
-        hull = ET.SubElement(geometry, "mesh", {"filename": hull_file.as_uri()})
-        ET.SubElement(hull, "drake:declare_convex")
+        for file in hull_files:
+            collision = ET.SubElement(link, "collision", {"name": f"{file.stem}_hull"})
+            geometry = ET.SubElement(collision, "geometry")
+            hull = ET.SubElement(geometry, "mesh", {"filename": file.as_uri()})
+            ET.SubElement(hull, "drake:declare_convex")
     root.set("xmlns:drake", "http://drake.mit.edu")
     return ET.tostring(root, encoding="unicode")
 
@@ -217,7 +212,11 @@ def _cache_folder(robot: RobotModel) -> Path:
 
 
 def _convert(
-    robot: RobotModel, name: str, visual: ET.Element, visual_file: Path, hull_file: Path
+    robot: RobotModel,
+    name: str,
+    visual: ET.Element,
+    visual_file: Path,
+    hull_files: list[Path],
 ) -> None:
     scene = trimesh.load_scene(_source(robot, visual))
     scene.apply_transform(_Z_UP_TO_Y_UP)  # type: ignore[no-untyped-call]
@@ -229,8 +228,19 @@ def _convert(
     if name in robot.foot_bodies.values():
         lowest = -robot.sole.ankle_height + SOLE_CLEARANCE
         vertices = np.vstack([vertices[vertices[:, 2] >= lowest], _cut(mesh, lowest)])
-    hull = trimesh.convex.convex_hull(vertices)
-    _write_atomically(hull_file, hull.export(file_type="obj").encode())
+    hulls = [trimesh.convex.convex_hull(vertices)]
+    if len(hull_files) > 1:
+        hulls = _pieces(mesh, len(hull_files))
+    for file, hull in zip(hull_files, hulls, strict=True):
+        _write_atomically(file, hull.export(file_type="obj").encode())
+
+
+def _pieces(mesh: trimesh.Trimesh, count: int) -> list[trimesh.Trimesh]:
+    """Convex hulls that together follow a concave surface within about a millimetre."""
+    pieces = trimesh.decomposition.convex_decomposition(
+        mesh, maxConvexHulls=count, resolution=VOXELS
+    )
+    return [trimesh.convex.convex_hull(piece["vertices"]) for piece in pieces]
 
 
 def _opaque(gltf: bytes) -> bytes:
@@ -263,30 +273,3 @@ def _write_atomically(path: Path, data: bytes) -> None:
     partial = path.with_suffix(f".{os.getpid()}.partial")
     partial.write_bytes(data)
     partial.replace(path)
-
-
-def _add_soles(
-    plant: MultibodyPlant, instance: ModelInstanceIndex, robot: RobotModel
-) -> None:
-    sole = robot.sole
-    for foot in FEET:
-        body = plant.GetBodyByName(robot.foot_bodies[foot], instance)
-        for i, x in enumerate(np.linspace(-sole.heel, sole.toe, 3)):
-            for j, y in enumerate((-sole.half_width, sole.half_width)):
-                centre: Vector = np.array([x, y, SPHERE_RADIUS - sole.ankle_height])
-                properties = ProximityProperties()
-                properties.AddProperty(
-                    "material", "coulomb_friction", CoulombFriction(1.0, 1.0)
-                )
-                plant.RegisterCollisionGeometry(
-                    body,
-                    RigidTransform(centre),
-                    Sphere(SPHERE_RADIUS),
-                    f"{SOLE_PREFIX}_{foot}_{i}{j}",
-                    properties,
-                )
-
-
-def is_sole(name: str) -> bool:
-    """Whether a geometry (by its name, with or without scope) belongs to a sole."""
-    return name.rpartition("::")[2].startswith(SOLE_PREFIX)

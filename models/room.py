@@ -28,7 +28,7 @@ class RoomParams:
     wall_thickness: float = 0.10
     """Thickness of the four walls, m."""
     friction: float = 0.8
-    """Coulomb friction coefficient of the floor and the walls."""
+    """Coulomb friction coefficient between floor or walls and a sole."""
     x: float = 0.0
     """Centre of the floor along x of W, m."""
     y: float = 0.0

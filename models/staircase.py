@@ -42,7 +42,7 @@ class StaircaseParams:
     tread_thickness: float = 0.04
     """Thickness of the plates where the risers are open, m."""
     friction: float = 0.8
-    """Coulomb friction coefficient of the treads."""
+    """Coulomb friction coefficient between the treads and a sole."""
     x: float = 0.6
     """Where the foot of the first riser has its middle, along x of W, m."""
     y: float = 0.0

@@ -19,8 +19,9 @@ class DistributionParams:
     friction: float = 0.6
     """mu of the pyramid that the wrenches are kept in; below the ground's, so that the
     feet do not slide."""
-    edge_margin: float = 0.004
-    """The centre of pressure keeps this far inside the sole's edges, m."""
+    edge_margin: float = 0.012
+    """The centre of pressure keeps this far inside the sole's edges, m: nearer to one
+    the rubber of the sole gives and the foot tips over it."""
     least_force: float = 5.0
     """Normal force that a foot on the ground keeps at least, N."""
     force_weight: float = 1.0

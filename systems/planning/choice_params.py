@@ -31,6 +31,9 @@ class ChoiceParams:
     """Share of the effort limits that may be asked."""
     limb_clearance: float = 0.005
     """Least distance of shins, knees and all above to a nosing, m."""
+    self_clearance: float = 0.003
+    """Least distance of two bodies of the robot that can meet, m: of a thigh that is
+    folded before the pelvis little more is left by construction."""
     reach_tolerance: float = 0.015
     """A sole that misses its pose by more is out of reach, m."""
     posture_tolerance: float = 0.55
@@ -64,6 +67,7 @@ class ChoiceParams:
             "torque_window",
             "quasi_static_torque_window",
             "limb_clearance",
+            "self_clearance",
         ):
             if not 0.0 <= getattr(self, name) < math.inf:
                 raise ValueError(

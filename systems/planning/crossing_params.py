@@ -39,11 +39,13 @@ class HighCrossingParams:
     """How far the shoulders pitch back in phase 1, rad: to the front."""
     knee_margin: float = 0.15
     """How far the knees keep off their straightest, rad."""
-    inward: float = 0.05
+    inward: float = 0.09
     """How far the foot over the obstacle is drawn towards the other one, m."""
     margins: list[float] = field(default_factory=lambda: [0.038, 0.03])
     """s_w and s_h, m, tried in this order: the paper's own last, when the knees ask for
     the shorter step; what the eyes and the feet err comes off them."""
+    waist_roll: float = 0.10
+    """How far the pelvis rolls to raise the hip of the foot over the obstacle, rad."""
     least_gap: float = 0.025
     """Least distance of the legs to the obstacle as it was seen, m."""
     lead_pitch: float = 0.2
@@ -64,6 +66,7 @@ class HighCrossingParams:
         for name in (
             "lean",
             "waist_yaw",
+            "waist_roll",
             "inward",
             "knee_margin",
             "over_share",
@@ -115,9 +118,12 @@ class CrossingParams:
     stretch its knee by another 0.08 rad."""
     lean: float = 0.0
     """Forward pitch of the pelvis while crossing, rad."""
-    inward: float = 0.03
+    inward: float = 0.07
     """How far the foot over the obstacle is drawn towards the other one, m: the waist
     sways to that side, and a folded leg that hangs outwards rolls its hip too far."""
+    waist_roll: float = 0.10
+    """How far the pelvis rolls to raise the hip of the foot over the obstacle, rad; it
+    spreads the folded thigh from the pelvis."""
     sampling: float = 0.010
     """Of the whole-body motion that is planned, s; a multiple of the plan's period.
     Looked at every 5 ms the ZMP over 25 cm errs by 10 mm at most, with 15 ms by 13."""
@@ -130,6 +136,8 @@ class CrossingParams:
     least_gap: float = 0.033
     """Least distance of the legs to the obstacle as it was seen for a motion to be
     carried out, m: the paper's 3 cm and some millimetres of tracking error."""
+    least_self_distance: float = 0.003
+    """Least distance of two bodies of the robot that can meet, m."""
     most_short: float = 0.003
     """Most that an ankle of the planned motion may be out of reach, m; the IK makes
     that up in height."""
@@ -167,6 +175,8 @@ class CrossingParams:
             "zmp_forward",
             "zmp_rounding",
             "waist_yaw",
+            "waist_roll",
+            "least_self_distance",
             "lean",
             "inward",
             "knee_margin",
@@ -196,6 +206,7 @@ def ways_of_crossing(crossing: CrossingParams) -> tuple[CrossingParams, ...]:
             double_support=high.double_support,
             lean=high.lean,
             waist_yaw=high.waist_yaw,
+            waist_roll=high.waist_roll,
             arm_swing=high.arm_swing,
             inward=high.inward,
             knee_margin=high.knee_margin,

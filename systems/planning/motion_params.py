@@ -42,13 +42,19 @@ class MotionPlannerParams:
     """Clearances of the foot in the air."""
     zmp_forward: float = 0.035
     """ZMP in single support ahead of the ankle, m: near the middle of the sole."""
-    climb_zmp_forward: float = 0.06
+    climb_zmp_forward: float = 0.05
     """The same while climbing, m: nearer to the knee, which has less to carry."""
     zmp_inward: float = 0.008
     """ZMP in single support towards the other foot, m: a shorter way to sway."""
     lean: float = 0.30
     """Forward pitch of the pelvis while climbing, rad; brings the CoM over the bent
     knee and takes torque off it."""
+    climb_inward: float = 0.06
+    """How far a climbing foot swings inwards on its way, m: a folded thigh that reaches
+    down and outwards under the swaying pelvis would meet it."""
+    climb_roll: float = 0.08
+    """How far the pelvis rolls to raise the hip of a climbing foot, rad; it spreads the
+    thigh from the pelvis and leans the trunk over the foot that stands."""
     rise_end: float = 0.85
     """Share of a climbing step's single support after which the CoM is up: the earlier,
     the straighter is the knee that carries it and the more must the rear leg push."""
@@ -89,6 +95,8 @@ class MotionPlannerParams:
             "climb_zmp_forward",
             "zmp_inward",
             "lean",
+            "climb_inward",
+            "climb_roll",
             "max_toe_off",
         ):
             if not 0.0 <= getattr(self, name) < math.inf:
