@@ -121,7 +121,7 @@ class CrossingParams:
     inward: float = 0.07
     """How far the foot over the obstacle is drawn towards the other one, m: the waist
     sways to that side, and a folded leg that hangs outwards rolls its hip too far."""
-    waist_roll: float = 0.10
+    waist_roll: float = 0.05
     """How far the pelvis rolls to raise the hip of the foot over the obstacle, rad; it
     spreads the folded thigh from the pelvis."""
     sampling: float = 0.010
