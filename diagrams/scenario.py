@@ -21,6 +21,7 @@ from diagrams.schema import (
 )
 from diagrams.shipped import shipped_scenarios
 from diagrams.task_params import TaskParams
+from models.contact_geometry import CONTACT_MODELS
 from models.jvrc1 import JVRC1
 from models.robot import RobotModel
 from models.room_obstacles import place_boxes
@@ -51,6 +52,8 @@ from systems.tracking.whole_body_ik import IkParams
 
 ROBOTS: dict[str, RobotModel] = {"jvrc1": JVRC1}
 """The robots that a scenario may name."""
+APPROXIMATIONS = ("lagged", "similar", "sap")
+"""What Drake offers of its contact problem that is convex."""
 
 
 class ScenarioError(ValueError):
@@ -149,6 +152,11 @@ class SimulationParams(Parameters):
 
     time_step: float = number(0.0025, "s", least=1e-5, most=0.1)
     """Step of the plant, s."""
+    contact_model: str = choice("hydroelastic", CONTACT_MODELS)
+    """How soles meet the ground: "hydroelastic" (rubber that carries wherever something
+    is under it), or "point" (six small spheres)."""
+    contact_approximation: str = choice("lagged", APPROXIMATIONS)
+    """How Drake solves contact: "lagged", "similar" or "sap"."""
     max_time: float = number(120.0, "s", above=0.0)
     """When the run is given up, s of simulated time."""
     seed: int = number(0, least=0, most=LARGEST_SEED)

@@ -12,6 +12,7 @@ from diagrams.walking import add_walking, initial_stand
 from diagrams.walking_signals import VALUE_PERIOD, record_walking
 from diagrams.wiring import add_system
 from models.collision_hulls import collision_hulls
+from models.self_distance import SelfDistanceMeter
 from systems.perception.plane_segmenter import PlaneSegmenter
 from systems.perception.staircase_map import StaircaseMap
 from systems.planning.executive import Executive
@@ -82,6 +83,7 @@ def build_stair_climbing(
                 ik,
                 params.stabilizer.distribution,
                 collision_hulls(robot),
+                SelfDistanceMeter(robot),
             ),
         ),
     )

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from pydrake.geometry import Box as BoxShape
 from pydrake.math import RigidTransform, RollPitchYaw
-from pydrake.multibody.plant import CoulombFriction, MultibodyPlant
+from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import (
     ModelInstanceIndex,
     PdControllerGains,
@@ -14,6 +14,7 @@ from pydrake.multibody.tree import (
     SpatialInertia,
 )
 
+from models.contact_geometry import surface_properties
 from models.obstacle import COLOR, BoxParams
 from models.solid_names import BOX
 from models.validation import number
@@ -83,9 +84,9 @@ def add_movers(
         # A hair above the floor, on which it would else rub.
         p_BG[2] += 1e-3
         X_BG = RigidTransform(RollPitchYaw(0.0, 0.0, mover.yaw), p_BG)
-        friction = CoulombFriction(mover.friction, mover.friction)
+        surface = surface_properties(mover.friction)
         name = f"{BOX}{mover.name}"
         color: Vector = np.array(COLOR)
-        plant.RegisterCollisionGeometry(body, X_BG, BoxShape(*size), name, friction)
+        plant.RegisterCollisionGeometry(body, X_BG, BoxShape(*size), name, surface)
         plant.RegisterVisualGeometry(body, X_BG, BoxShape(*size), name, color)
     return instance

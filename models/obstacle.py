@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from models.contact_geometry import GREATEST_FRICTION
 from models.solid_names import BOX
 from models.solids import Box, Rgba, upright_pose
 from models.validation import Parameters, number
@@ -27,8 +28,8 @@ class BoxParams(Parameters):
     """Direction of the box's x, about z of W, rad."""
     size: list[float] = number([0.05, 1.0, 0.15], "m", above=0.0, length=3)
     """Side lengths along its x, y and z, m (obstacle paper: 5 cm thick, 15 cm high)."""
-    friction: float = number(0.8, above=0.0, most=10.0)
-    """Coulomb friction coefficient of its surface."""
+    friction: float = number(0.8, above=0.0, below=GREATEST_FRICTION)
+    """Coulomb friction coefficient between its surface and a sole."""
 
     def validate(self) -> None:
         """Checks every field, and those that concern each other.

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from pydrake.math import RigidTransform
 
+from models.contact_geometry import GREATEST_FRICTION
 from models.solid_names import ROOM
 from models.solids import Box, Rgba, upright_pose
 from models.validation import Parameters, number
@@ -28,8 +29,8 @@ class RoomParams(Parameters):
     """Inner height, m (stair paper, Sec. 6)."""
     wall_thickness: float = number(0.10, "m", above=0.0)
     """Thickness of the four walls, m."""
-    friction: float = number(0.8, above=0.0, most=10.0)
-    """Coulomb friction coefficient of the floor and the walls."""
+    friction: float = number(0.8, above=0.0, below=GREATEST_FRICTION)
+    """Coulomb friction coefficient between floor or walls and a sole."""
     x: float = number(0.0, "m")
     """Centre of the floor along x of W, m."""
     y: float = number(0.0, "m")

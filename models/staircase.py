@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from pydrake.math import RigidTransform
 
+from models.contact_geometry import GREATEST_FRICTION
 from models.solid_names import STAIRCASE
 from models.solids import Box, Rgba, upright_pose
 from models.validation import Parameters, number
@@ -42,8 +43,8 @@ class StaircaseParams(Parameters):
     """Whether each step is solid down to the floor, or a plate with air beneath."""
     tread_thickness: float = number(0.04, "m", above=0.0)
     """Thickness of the plates where the risers are open, m."""
-    friction: float = number(0.8, above=0.0, most=10.0)
-    """Coulomb friction coefficient of the treads."""
+    friction: float = number(0.8, above=0.0, below=GREATEST_FRICTION)
+    """Coulomb friction coefficient between the treads and a sole."""
     x: float = number(0.6, "m")
     """Where the foot of the first riser has its middle, along x of W, m."""
     y: float = number(0.0, "m")

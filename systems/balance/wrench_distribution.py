@@ -20,8 +20,9 @@ class DistributionParams(Parameters):
     friction: float = number(0.6, above=0.0, most=10.0, shared="parameters.friction")
     """mu of the pyramid that the wrenches are kept in; below the ground's, so that the
     feet do not slide."""
-    edge_margin: float = number(0.004, "m", least=0.0)
-    """The centre of pressure keeps this far inside the sole's edges, m."""
+    edge_margin: float = number(0.012, "m", least=0.0)
+    """The centre of pressure keeps this far inside the sole's edges, m: nearer to one
+    the rubber of the sole gives and the foot tips over it."""
     least_force: float = number(5.0, "N", least=0.0)
     """Normal force that a foot on the ground keeps at least, N."""
     force_weight: float = number(1.0, above=0.0)

@@ -40,6 +40,9 @@ class ChoiceParams(Parameters):
     """Share of the effort limits that may be asked."""
     limb_clearance: float = number(0.005, "m", least=0.0)
     """Least distance of shins, knees and all above to a nosing, m."""
+    self_clearance: float = number(0.003, "m", least=0.0)
+    """Least distance of two bodies of the robot that can meet, m: of a thigh that is
+    folded before the pelvis little more is left by construction."""
     reach_tolerance: float = number(0.015, "m", above=0.0)
     """A sole that misses its pose by more is out of reach, m."""
     posture_tolerance: float = number(0.55, "rad", above=0.0)

@@ -34,11 +34,13 @@ class HighCrossingParams(Parameters):
     """How far the shoulders pitch back in phase 1, rad: to the front."""
     knee_margin: float = number(0.15, "rad", least=0.0)
     """How far the knees keep off their straightest, rad."""
-    inward: float = number(0.05, "m", least=0.0)
+    inward: float = number(0.09, "m", least=0.0)
     """How far the foot over the obstacle is drawn towards the other one, m."""
     margins: list[float] = number([0.038, 0.03], "m", least=0.0)
     """s_w and s_h, m, tried in this order: the paper's own last, when the knees ask for
     the shorter step; what the eyes and the feet err comes off them."""
+    waist_roll: float = number(0.10, "rad", least=0.0, below=RIGHT_ANGLE)
+    """How far the pelvis rolls to raise the hip of the foot over the obstacle, rad."""
     least_gap: float = number(0.025, "m", least=0.0)
     """Least distance of the legs to the obstacle as it was seen, m."""
     lead_pitch: float = number(0.2, "rad", above=-RIGHT_ANGLE, below=RIGHT_ANGLE)
@@ -90,9 +92,12 @@ class CrossingParams(Parameters):
     stretch its knee by another 0.08 rad."""
     lean: float = number(0.0, "rad", least=0.0, below=RIGHT_ANGLE)
     """Forward pitch of the pelvis while crossing, rad."""
-    inward: float = number(0.03, "m", least=0.0)
+    inward: float = number(0.07, "m", least=0.0)
     """How far the foot over the obstacle is drawn towards the other one, m: the waist
     sways to that side, and a folded leg that hangs outwards rolls its hip too far."""
+    waist_roll: float = number(0.05, "rad", least=0.0, below=RIGHT_ANGLE)
+    """How far the pelvis rolls to raise the hip of the foot over the obstacle, rad; it
+    spreads the folded thigh from the pelvis."""
     sampling: float = number(0.010, "s", least=1e-3, most=1.0)
     """Of the whole-body motion that is planned, s; a multiple of the plan's period.
     Looked at every 5 ms the ZMP over 25 cm errs by 10 mm at most, with 15 ms by 13."""
@@ -105,6 +110,8 @@ class CrossingParams(Parameters):
     least_gap: float = number(0.033, "m", least=0.0)
     """Least distance of the legs to the obstacle as it was seen for a motion to be
     carried out, m: the paper's 3 cm and some millimetres of tracking error."""
+    least_self_distance: float = number(0.003, "m", least=0.0)
+    """Least distance of two bodies of the robot that can meet, m."""
     most_short: float = number(0.003, "m", least=0.0)
     """Most that an ankle of the planned motion may be out of reach, m; the IK makes
     that up in height."""
@@ -142,6 +149,7 @@ def ways_of_crossing(crossing: CrossingParams) -> tuple[CrossingParams, ...]:
             double_support=high.double_support,
             lean=high.lean,
             waist_yaw=high.waist_yaw,
+            waist_roll=high.waist_roll,
             arm_swing=high.arm_swing,
             inward=high.inward,
             knee_margin=high.knee_margin,

@@ -46,13 +46,19 @@ class MotionPlannerParams(Parameters):
     """Clearances of the foot in the air."""
     zmp_forward: float = number(0.035, "m", least=0.0)
     """ZMP in single support ahead of the ankle, m: near the middle of the sole."""
-    climb_zmp_forward: float = number(0.06, "m", least=0.0)
+    climb_zmp_forward: float = number(0.05, "m", least=0.0)
     """The same while climbing, m: nearer to the knee, which has less to carry."""
     zmp_inward: float = number(0.008, "m", least=0.0)
     """ZMP in single support towards the other foot, m: a shorter way to sway."""
     lean: float = number(0.30, "rad", least=0.0, below=RIGHT_ANGLE)
     """Forward pitch of the pelvis while climbing, rad; brings the CoM over the bent
     knee and takes torque off it."""
+    climb_inward: float = number(0.06, "m", least=0.0)
+    """How far a climbing foot swings inwards on its way, m: a folded thigh that reaches
+    down and outwards under the swaying pelvis would meet it."""
+    climb_roll: float = number(0.08, "rad", least=0.0, below=RIGHT_ANGLE)
+    """How far the pelvis rolls to raise the hip of a climbing foot, rad; it spreads the
+    thigh from the pelvis and leans the trunk over the foot that stands."""
     rise_end: float = number(0.85, least=0.01, most=1.0)
     """Share of a climbing step's single support after which the CoM is up: the earlier,
     the straighter is the knee that carries it and the more must the rear leg push."""
