@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 from pydrake.common.value import AbstractValue, Value
-from pydrake.geometry import GeometryId, SceneGraphInspector
+from pydrake.geometry import GeometryId, Role, SceneGraphInspector
 from pydrake.multibody.plant import ContactResults, MultibodyPlant
-from pydrake.multibody.tree import BodyIndex, ModelInstanceIndex
+from pydrake.multibody.tree import BodyIndex, ModelInstanceIndex, RigidBody
 from pydrake.systems.framework import (
     BasicVector,
     Context,
@@ -70,7 +70,7 @@ def watched_geometry(
         body = plant.get_body(index)
         geometries = [
             geometry
-            for geometry in plant.GetCollisionGeometriesForBody(body)
+            for geometry in _collision_geometries(plant, inspector, body)
             if not is_sole(inspector.GetName(geometry))
         ]
         if geometries:
@@ -82,12 +82,21 @@ def watched_geometry(
         body = plant.get_body(BodyIndex(number))
         if body.model_instance() == robot:
             continue
-        for geometry in plant.GetCollisionGeometriesForBody(body):
+        for geometry in _collision_geometries(plant, inspector, body):
             name = inspector.GetName(geometry).rpartition("::")[2]
             if name.startswith(solid_prefix):
                 solid_of[geometry] = len(solids)
                 solids.append(name)
     return WatchedGeometry(tuple(bodies), tuple(solids), body_of, solid_of)
+
+
+def _collision_geometries(
+    plant: MultibodyPlant, inspector: SceneGraphInspector, body: RigidBody
+) -> list[GeometryId]:
+    """Of a body. An id that the plant itself gives keeps the plant alive for ever."""
+    frame = plant.GetBodyFrameIdOrThrow(body.index())
+    found: list[GeometryId] = inspector.GetGeometries(frame, Role.kProximity)
+    return found
 
 
 def watched_contacts(
