@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from pydrake.geometry import QueryObject
+from pydrake.geometry import QueryObject, Role
 from pydrake.multibody.plant import AddMultibodyPlantSceneGraph
 from pydrake.systems.framework import DiagramBuilder
 
@@ -36,10 +36,14 @@ class SelfDistanceMeter:
         self._root = builder.Build().CreateDefaultContext()
         self._context = self._plant.GetMyMutableContextFromRoot(self._root)
         self._query_context = self._scene_graph.GetMyContextFromRoot(self._root)
+        # Ids that the plant itself gives would keep it alive.
+        inspector = self._scene_graph.model_inspector()
         self._body_of = {
             geometry: body.name()
             for body in map(self._plant.get_body, self._plant.GetBodyIndices(instance))
-            for geometry in self._plant.GetCollisionGeometriesForBody(body)
+            for geometry in inspector.GetGeometries(
+                self._plant.GetBodyFrameIdOrThrow(body.index()), Role.kProximity
+            )
         }
 
     def nearest(self, positions: Vector, within: float) -> SelfDistance:

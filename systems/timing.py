@@ -9,6 +9,8 @@ from typing import ParamSpec, TypeVar
 import numpy as np
 from pydrake.systems.framework import System
 
+from systems.callbacks import weakly_bound
+
 P = ParamSpec("P")
 R = TypeVar("R")
 
@@ -100,9 +102,12 @@ def stopwatch(system: System) -> Stopwatch | None:
 
 
 def timed(system: System, callback: Callable[P, R]) -> Callable[P, R]:
-    """The callback, measured by the system's stopwatch (made at the first call)."""
+    """The callback, measured by the system's stopwatch (made at the first call).
+
+    Like `weakly_bound`, it does not keep the system alive.
+    """
     watch = stopwatch(system)
     if watch is None:
         watch = Stopwatch()
         system._stopwatch = watch  # type: ignore[attr-defined]
-    return watch.wrap(callback)
+    return watch.wrap(weakly_bound(callback))

@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 from pydrake.common.value import AbstractValue, Value
 from pydrake.systems.framework import (
-    CacheEntry,
     Context,
     EventStatus,
     LeafSystem,
@@ -55,7 +54,7 @@ class ValueLogSink(LeafSystem):
         if not period > 0.0:
             raise ValueError(f"period: must be positive, got {period} s")
         self._value = self.DeclareAbstractInputPort("value", model_value)
-        self._log: CacheEntry = self.DeclareCacheEntry(
+        entry = self.DeclareCacheEntry(
             "log",
             ValueProducer(
                 allocate=lambda: Value[object]([]),
@@ -63,6 +62,8 @@ class ValueLogSink(LeafSystem):
             ),
             {self.nothing_ticket()},
         )
+        # An entry that the System held would keep it alive for ever.
+        self._log = entry.cache_index()
         append = timed(self, self._append)
         self.DeclarePeriodicPublishEvent(period, 0.0, append)
         self.DeclareForcedPublishEvent(append)
@@ -76,7 +77,8 @@ class ValueLogSink(LeafSystem):
         del self._entries(self.GetMyContextFromRoot(root_context))[:-1]
 
     def _entries(self, context: Context) -> list[LoggedValue]:
-        held = self._log.get_mutable_cache_entry_value(context)
+        entry = self.get_cache_entry(self._log)
+        held = entry.get_mutable_cache_entry_value(context)
         entries = held.GetMutableValueOrThrow()
         if not isinstance(entries, list):
             raise TypeError(f"the log holds {type(entries).__name__}, expected a list")

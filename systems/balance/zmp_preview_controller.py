@@ -1,6 +1,6 @@
 """The preview controller as a System: ZMP reference in, CoM reference out."""
 
-from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 from pydrake.systems.framework import BasicVector, Context, DiscreteValues, LeafSystem
@@ -81,7 +81,7 @@ class ZmpPreviewController(LeafSystem):
             self.DeclareVectorOutputPort(
                 name,
                 2,
-                timed(self, self._calc_row(row)),
+                timed(self, partial(self._calc_row, row)),
                 prerequisites_of_calc={self.discrete_state_ticket(self._state)},
             )
         self.DeclarePeriodicDiscreteUpdateEvent(
@@ -93,11 +93,8 @@ class ZmpPreviewController(LeafSystem):
         """The law; its `horizon` gives the size of `zmp_preview`."""
         return self._gains
 
-    def _calc_row(self, row: Vector) -> Callable[[Context, BasicVector], None]:
-        def calc(context: Context, output: BasicVector) -> None:
-            set_vector(output, self._motion(context)[0] @ row)
-
-        return calc
+    def _calc_row(self, row: Vector, context: Context, output: BasicVector) -> None:
+        set_vector(output, self._motion(context)[0] @ row)
 
     def _motion(self, context: Context) -> tuple[Vector, Vector]:
         value = context.get_discrete_state(int(self._state)).value()

@@ -62,7 +62,7 @@ class FloorExtractor(LeafSystem):
         )
         self._viewpoint = self.DeclareVectorInputPort("viewpoint", 3)
         calc_split: Callable[..., None] = timed(self, self._calc_split)
-        self._split = self.DeclareCacheEntry(
+        entry = self.DeclareCacheEntry(
             "split",
             ValueProducer(
                 lambda: AbstractValue.Make(_Split(FloorEstimate(), np.zeros((0, 3)))),
@@ -70,7 +70,9 @@ class FloorExtractor(LeafSystem):
             ),
             {self._cloud.ticket(), self._viewpoint.ticket()},
         )
-        ticket = {self._split.ticket()}
+        # An entry that the System held would keep it alive for ever.
+        self._split = entry.cache_index()
+        ticket = {entry.ticket()}
         calc_floor: Callable[..., None] = timed(self, self._calc_floor)
         calc_obstacles: Callable[..., None] = timed(self, self._calc_obstacles)
         self.DeclareAbstractOutputPort(
@@ -100,7 +102,7 @@ class FloorExtractor(LeafSystem):
         split.set_value(_Split(*extract_floor(points, viewpoint, self._params)))
 
     def _get(self, context: Context) -> _Split:
-        split = self._split.Eval(context)
+        split = self.get_cache_entry(self._split).Eval(context)
         assert isinstance(split, _Split)
         return split
 

@@ -3,6 +3,7 @@
 import dataclasses
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from time import perf_counter
 from typing import Any
 
@@ -11,6 +12,7 @@ from pydrake.common.value import AbstractValue
 from pydrake.systems.framework import Context, LeafSystem, ValueProducer
 
 from systems.balance.zmp_preview import ZmpPreviewParams
+from systems.callbacks import weakly_bound
 from systems.obstacle_values import Feasibility, Obstacle, ObstacleMap
 from systems.planning.crossing_feet import section_of
 from systems.planning.crossing_footsteps import (
@@ -112,32 +114,34 @@ class CrossingPlanner(LeafSystem):
         self._scratch = declare_scratch_context(self, body.plant)
         nothing = CrossingPlan(FootstepPlan(), standing)
         compute: Callable[..., None] = timed(self, self._calc)
-        self._plan = self.DeclareCacheEntry(
+        entry = self.DeclareCacheEntry(
             "plan",
             ValueProducer(allocate=lambda: AbstractValue.Make(nothing), calc=compute),
             {port.ticket() for port in (self._map, self._goal, self._feet, self._com)},
         )
+        # An entry that the System held would keep it alive for ever.
+        self._plan = entry.cache_index()
         parts: tuple[tuple[str, Any, Callable[[CrossingPlan], object]], ...] = (
             ("footstep_plan", FootstepPlan(), lambda plan: plan.footsteps),
             ("motion_plan", standing, lambda plan: plan.motion),
         )
         for name, model, part in parts:
-            calc: Callable[..., None] = self._part(part)
+            calc: Callable[..., None] = weakly_bound(partial(self._calc_part, part))
             self.DeclareAbstractOutputPort(
                 name,
                 lambda model=model: AbstractValue.Make(model),
                 calc,
-                prerequisites_of_calc={self._plan.ticket()},
+                prerequisites_of_calc={entry.ticket()},
             )
 
-    def _part(
-        self, part: Callable[[CrossingPlan], object]
-    ) -> Callable[[Context, AbstractValue], None]:
-        def calc(context: Context, output: AbstractValue) -> None:
-            plan: Any = self._plan.Eval(context)
-            output.set_value(part(plan))
-
-        return calc
+    def _calc_part(
+        self,
+        part: Callable[[CrossingPlan], object],
+        context: Context,
+        output: AbstractValue,
+    ) -> None:
+        plan: Any = self.get_cache_entry(self._plan).Eval(context)
+        output.set_value(part(plan))
 
     def _calc(self, context: Context, output: AbstractValue) -> None:
         obstacles = eval_abstract(self._map, context, ObstacleMap)

@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 from pydrake.common.value import AbstractValue
 from pydrake.systems.framework import Context, LeafSystem, State
 
+from systems.callbacks import weakly_bound
 from systems.timing import timed
 
 D = TypeVar("D")
@@ -32,6 +33,7 @@ def declare_decisions(
         From the System's context to its decision.
     """
     index = system.DeclareAbstractState(AbstractValue.Make(first))
+    decide = weakly_bound(decide)
 
     def decision(context: Context) -> D:
         state: Any = context.get_abstract_state(int(index))

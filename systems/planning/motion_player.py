@@ -1,6 +1,7 @@
 """Plays a motion plan: from abstract plan to vectors for the fast loop."""
 
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 from pydrake.common.value import AbstractValue
@@ -130,15 +131,15 @@ class MotionPlayer(LeafSystem):
             self.DeclareVectorOutputPort(
                 name,
                 size,
-                timed(self, self._calc(sample)),
+                timed(self, partial(self._calc, sample)),
                 prerequisites_of_calc={self._plan.ticket(), self.time_ticket()},
             )
 
     def _calc(
-        self, sample: Callable[[MotionPlan, int], Vector]
-    ) -> Callable[[Context, BasicVector], None]:
-        def calc(context: Context, output: BasicVector) -> None:
-            plan = eval_abstract(self._plan, context, MotionPlan)
-            set_vector(output, sample(plan, plan_row(plan, context.get_time())))
-
-        return calc
+        self,
+        sample: Callable[[MotionPlan, int], Vector],
+        context: Context,
+        output: BasicVector,
+    ) -> None:
+        plan = eval_abstract(self._plan, context, MotionPlan)
+        set_vector(output, sample(plan, plan_row(plan, context.get_time())))

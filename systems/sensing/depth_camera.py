@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -183,7 +184,7 @@ class DepthCamera(LeafSystem):
         calc_poses: Callable[..., None] = timed(self, self._calc_frame_body_poses)
         self.DeclareAbstractOutputPort(
             "depth_image",
-            lambda: AbstractValue.Make(self._no_image()),
+            partial(AbstractValue.Make, self._no_image()),
             calc_image,
             prerequisites_of_calc=ticket,
         )

@@ -21,14 +21,15 @@ _NOTHING: Vector = np.zeros(3)
 
 def sum_wrenches(
     results: ContactResults,
-    foot_of: Mapping[GeometryId, int],
+    foot_of: Mapping[int, int],
     X_WF: Sequence[RigidTransform],
 ) -> Vector:
     """Sum the wrenches of all contacts on each foot, in its sole frame.
 
     Args:
         results: of one plant step; point contacts and contact surfaces count alike.
-        foot_of: which foot each collision geometry of a foot belongs to.
+        foot_of: which foot each collision geometry of a foot, by its id's value,
+            belongs to.
         X_WF: the sole frames.
 
     Returns:
@@ -37,7 +38,7 @@ def sum_wrenches(
     wrenches = np.zeros((len(X_WF), 6))
 
     def add(id_on: GeometryId, point: Vector, force: Vector, moment: Vector) -> None:
-        k = foot_of.get(id_on)
+        k = foot_of.get(id_on.get_value())
         if k is not None:
             arm = point - X_WF[k].translation()
             wrenches[k, :3] += force
@@ -95,8 +96,9 @@ class FootWrenchSensor(LeafSystem):
         super().__init__()
         feet = [plant.GetBodyByName(robot.foot_bodies[foot], instance) for foot in FEET]
         self._feet = [foot.index() for foot in feet]
+        # An id itself would keep the plant, which gives it, alive.
         self._foot_of = {
-            geometry: k
+            geometry.get_value(): k
             for k, foot in enumerate(feet)
             for geometry in plant.GetCollisionGeometriesForBody(foot)
         }

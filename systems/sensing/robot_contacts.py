@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from pydrake.geometry import GeometryId, SceneGraphInspector
+from pydrake.geometry import GeometryId, Role, SceneGraphInspector
 from pydrake.multibody.plant import ContactResults, MultibodyPlant
 from pydrake.multibody.tree import BodyIndex, ModelInstanceIndex
 
@@ -82,7 +82,7 @@ def watched_geometry(
     part_of: dict[GeometryId, Part] = {}
     for index in plant.GetBodyIndices(robot):
         body = plant.get_body(index)
-        geometries = plant.GetCollisionGeometriesForBody(body)
+        geometries = collision_geometries(plant, inspector, index)
         for geometry in geometries:
             sole = is_sole(inspector.GetName(geometry))
             part_of[geometry] = Part(len(bodies), sole)
@@ -97,7 +97,7 @@ def watched_geometry(
         body = plant.get_body(BodyIndex(number))
         if body.model_instance() == robot:
             continue
-        for geometry in plant.GetCollisionGeometriesForBody(body):
+        for geometry in collision_geometries(plant, inspector, body.index()):
             solid_of[geometry] = len(solids)
             solids.append(inspector.GetName(geometry).rpartition("::")[2])
     return WatchedGeometry(
@@ -108,6 +108,18 @@ def watched_geometry(
         part_of,
         solid_of,
     )
+
+
+def collision_geometries(
+    plant: MultibodyPlant, inspector: SceneGraphInspector, body: BodyIndex
+) -> list[GeometryId]:
+    """The collision geometries of a body.
+
+    Ids that the plant gives keep it alive for as long as they are kept; these do not.
+    """
+    frame = plant.GetBodyFrameIdOrThrow(body)
+    found: list[GeometryId] = inspector.GetGeometries(frame, Role.kProximity)
+    return found
 
 
 def robot_contacts(

@@ -70,10 +70,10 @@ def feet_on(model: ContactModel, solid: Box) -> np.ndarray:
     return sum_wrenches(results, foot_of(plant), poses)
 
 
-def foot_of(plant: MultibodyPlant) -> dict[object, int]:
+def foot_of(plant: MultibodyPlant) -> dict[int, int]:
     """Which foot each geometry belongs to."""
     return {
-        geometry: k
+        geometry.get_value(): k
         for k, foot in enumerate(FEET)
         for geometry in plant.GetCollisionGeometriesForBody(
             plant.GetBodyByName(JVRC1.foot_bodies[foot])

@@ -170,7 +170,7 @@ def test_wrenches_are_those_of_the_contacts(standing: Standing) -> None:
     plant = standing.plant
     bodies = [plant.GetBodyByName(JVRC1.foot_bodies[foot]) for foot in FEET]
     feet = {
-        geometry: k
+        geometry.get_value(): k
         for k, body in enumerate(bodies)
         for geometry in plant.GetCollisionGeometriesForBody(body)
     }
@@ -181,7 +181,8 @@ def test_wrenches_are_those_of_the_contacts(standing: Standing) -> None:
     swapped = sum_wrenches(results, other, standing.X_WF[::-1])
     np.testing.assert_allclose(swapped[::-1], standing.wrenches, atol=1e-12)
     # The floor feels the opposite.
-    floor = dict.fromkeys(plant.GetCollisionGeometriesForBody(plant.world_body()), 0)
+    walls = plant.GetCollisionGeometriesForBody(plant.world_body())
+    floor = {geometry.get_value(): 0 for geometry in walls}
     world = sum_wrenches(results, floor, [RigidTransform()])[0]
     force, moment = in_world(standing)
     np.testing.assert_allclose(world, -np.concatenate([force, moment]), atol=1e-9)
