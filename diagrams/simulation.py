@@ -25,7 +25,13 @@ from diagrams.summary import (
     timing_us,
 )
 from diagrams.task_diagram import TaskDiagram
-from diagrams.watch import LOOK, RestClock, RobotWatch
+from diagrams.watch import (
+    LIE_TIME,
+    LOOK,
+    WATCHED_REST,
+    HoldClock,
+    RobotWatch,
+)
 from systems.values import Json
 
 REST_WATCH = 5.0
@@ -117,7 +123,7 @@ def simulate(
     context = simulator.get_mutable_context()
     watch = RobotWatch(task, context)
     end, finished, fell = max_time, False, False
-    resting = RestClock()
+    resting, lying = HoldClock(WATCHED_REST), HoldClock(LIE_TIME)
     stop: Stop = "time limit"
     reason = f"not done after {max_time:g} s"
     error: BaseException | None = None
@@ -134,7 +140,8 @@ def simulate(
             if progress is not None:
                 progress(now, status.activity)
             if fell:
-                if watch.lies():
+                lying.look(now, watch.lies())
+                if lying.done():
                     break
             elif (how := watch.fall()) is not None:
                 fell, end = True, now + FALL_WATCH
@@ -161,7 +168,7 @@ def simulate(
 
 
 def _advance_to_rest(
-    simulator: Simulator, until: float, watch: RobotWatch, resting: RestClock
+    simulator: Simulator, until: float, watch: RobotWatch, resting: HoldClock
 ) -> None:
     """Simulates in steps of `LOOK`, as long as the robot has not rested enough."""
     context = simulator.get_context()
