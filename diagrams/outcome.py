@@ -38,7 +38,7 @@ from diagrams.joint_figures import (
     worst_fraction,
 )
 from diagrams.rest import rest_faults, rest_figures
-from diagrams.rules import SLIP_MENTIONED, broken_rules
+from diagrams.rules import SLIP_MENTIONED, broken_rules, missing_evidence
 from systems.ports import Vector
 from systems.values import Foot, Json
 
@@ -174,6 +174,7 @@ def _verdict(
         reason = "; besides, ".join([evidence.stop_reason, *rules[:1]])
         return STOPPED[evidence.stop], "; ".join([reason, *rules[1:]])
     ground = last_ground(evidence)
+    rules += missing_evidence(evidence, speed[0], slip)
     figures = rest_figures(evidence.motion, loads, evidence.limits.weight, ground)
     unrest = rest_faults(figures, ground)
     if unrest:

@@ -159,11 +159,10 @@ def simulate(
         stop, reason = "interrupted", f"interrupted at {context.get_time():.2f} s"
         error = interrupt
     except Exception as exception:
-        error = exception
+        stop, error = "error", exception
         message = (str(exception).splitlines() or [""])[0]
         what = f"{type(exception).__name__}: {message}"
-        broke = f"the simulation broke off at {context.get_time():.2f} s: {what}"
-        stop, reason = ("fell", f"{reason}; {broke}") if fell else ("error", broke)
+        reason = f"the simulation broke off at {context.get_time():.2f} s: {what}"
     return Simulated(context, stop, reason, perf_counter() - start, error)
 
 
