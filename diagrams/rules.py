@@ -72,7 +72,7 @@ def missing_evidence(
 
 
 def _covers(evidence: Evidence, signal: str) -> bool:
-    """Whether a signal was logged from the start of the run to its end."""
+    """Whether a signal was logged, in numbers, from a run's start to its end."""
     frame = evidence.frames.get(signal)
     if frame is None or not len(frame):
         return False
@@ -80,7 +80,7 @@ def _covers(evidence: Evidence, signal: str) -> bool:
     time = np.concatenate([evidence.motion.time[:1], samples[:, 0]])
     ends = evidence.motion.time[-1] - samples[-1, 0] <= LONGEST_GAP
     gaps = np.diff(time).max(initial=0.0) <= LONGEST_GAP
-    return bool(ends and gaps)
+    return bool(ends and gaps and np.isfinite(samples).all())
 
 
 def _goal_faults(evidence: Evidence) -> list[str]:
