@@ -10,24 +10,26 @@ from typing import Literal, TypeAlias
 
 from diagrams.evidence import Evidence, Stop
 from diagrams.evidence_measures import (
-    CLIMBING,
     climb_time,
     com_error,
     crossing_figures,
     dcm_error,
-    fall,
     foot_contacts,
-    foot_loads,
-    foot_wrenches,
     footsteps,
     goal_error,
     largest_friction_ratio,
     largest_impact,
     largest_slip,
-    last_ground,
     min_static_margin,
     min_zmp_margin,
     steps_climbed,
+)
+from diagrams.evidence_signals import (
+    CLIMBING,
+    fall,
+    foot_loads,
+    foot_wrenches,
+    last_ground,
 )
 from diagrams.falls import Fall
 from diagrams.joint_figures import (

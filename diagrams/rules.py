@@ -3,7 +3,8 @@
 import numpy as np
 
 from diagrams.evidence import Evidence
-from diagrams.evidence_measures import CLIMBING, goal_error
+from diagrams.evidence_measures import goal_error
+from diagrams.evidence_signals import CLIMBING
 from diagrams.rest import LONGEST_GAP
 from diagrams.task_params import TASKS
 

@@ -5,9 +5,9 @@ from pydrake.multibody.plant import ContactResults
 from pydrake.systems.framework import Context
 
 from diagrams.evidence import robot_limits
-from diagrams.evidence_measures import CLIMBING
+from diagrams.evidence_signals import CLIMBING
 from diagrams.falls import base_height, fall_sign
-from diagrams.ground import FLOOR, tread_ground
+from diagrams.ground import end_ground
 from diagrams.rest import REST_TIME, at_rest, rest_figures
 from diagrams.task_diagram import TaskDiagram
 from diagrams.true_motion import TrueMotion, true_motion
@@ -58,7 +58,7 @@ class RobotWatch:
         )
         self._weight = robot_limits(plant, task.robot_instance).weight
         treads = task.scene.treads() if task.kind == CLIMBING else ()
-        self._ground = tread_ground(treads[-1], "the top tread") if treads else FLOOR
+        self._ground = end_ground(treads)
         self._initial = float(base_height(self._motion())[0])
 
     def _motion(self) -> TrueMotion:

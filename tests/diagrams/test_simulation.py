@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from diagrams.evidence import gather, joint_velocities
-from diagrams.evidence_measures import fall
+from diagrams.evidence_signals import fall
 from diagrams.signals import load_run
 from diagrams.simulation import run_task, simulate
 from diagrams.watch import RobotWatch
