@@ -14,8 +14,15 @@ from diagrams.crossing_judge import (
     planning_summary,
 )
 from diagrams.evidence import Evidence
-from diagrams.falls import Fall, find_fall
-from diagrams.ground import FLOOR, Ground, stands_flat, tread_ground
+from diagrams.evidence_signals import (
+    fall,
+    felt_forces,
+    foot_loads,
+    signal_at,
+    task_treads,
+    upward_force,
+)
+from diagrams.ground import end_ground, stands_flat, tread_ground
 from diagrams.measures import (
     contact_intervals,
     foot_slip,
@@ -26,30 +33,13 @@ from diagrams.measures import (
 from diagrams.rest import true_dcm
 from diagrams.static_margin import static_margins
 from diagrams.true_motion import TrueMotion
-from models.staircase import Tread
 from systems.ports import Vector
 from systems.sensing.contact_monitor import LOADED
 from systems.sensing.measured_zmp import measured_zmp
 from systems.values import FEET, Foot
 
-CLIMBING = "stair_climbing"
-"""The kind of task that ends on the top tread; every other ends on the floor."""
 RESTED = 0.2
 """For so long on end, s, a sole is flat and loaded on a tread that it rests on."""
-EDGE = 0.02
-"""Before its first sample and after its last a signal is taken as it was there for no
-longer than this, s."""
-
-
-def task_treads(evidence: Evidence) -> tuple[Tread, ...]:
-    """The treads of the staircase that was to be climbed; none in another task."""
-    return evidence.treads if evidence.kind == CLIMBING else ()
-
-
-def last_ground(evidence: Evidence) -> Ground:
-    """What both soles should stand on in the end: the top tread, or the floor."""
-    treads = task_treads(evidence)
-    return tread_ground(treads[-1], "the top tread") if treads else FLOOR
 
 
 def goal_error(evidence: Evidence) -> tuple[float, float]:
@@ -63,55 +53,6 @@ def goal_error(evidence: Evidence) -> tuple[float, float]:
     return distance, float(abs((turn + np.pi) % (2.0 * np.pi) - np.pi))
 
 
-def foot_wrenches(evidence: Evidence) -> dict[Foot, Vector] | None:
-    """Each foot's true contact wrench at `motion.time`, (n, 6)."""
-    frame = evidence.frames.get("station.foot_wrenches")
-    if frame is None:
-        return None
-    both = _at(evidence.motion.time, frame)
-    return {"left": both[:, :6], "right": both[:, 6:12]}
-
-
-def _at(time: Vector, frame: pd.DataFrame) -> Vector:
-    """A signal's columns at other times, (n, columns); nan where it was not logged."""
-    samples = frame.to_numpy(dtype=np.float64)
-    if not len(samples):
-        return np.full((len(time), samples.shape[1] - 1), np.nan)
-    columns = [np.interp(time, samples[:, 0], column) for column in samples[:, 1:].T]
-    values: Vector = np.stack(columns, axis=1)
-    values[(time < samples[0, 0] - EDGE) | (time > samples[-1, 0] + EDGE)] = np.nan
-    return values
-
-
-def foot_loads(evidence: Evidence) -> dict[Foot, Vector] | None:
-    """Upward force on each foot at `motion.time`, (n,), N; None where unknown."""
-    wrenches = foot_wrenches(evidence)
-    if wrenches is None:
-        return None
-    return {
-        foot: _normal_force(evidence, foot, wrench) for foot, wrench in wrenches.items()
-    }
-
-
-def fall(evidence: Evidence) -> Fall | None:
-    """The first sign of a fall; None where there is none."""
-    frame = evidence.frames.get("contact_monitor.other_support")
-    if frame is None:
-        nothing: Vector = np.zeros(0)
-        return find_fall(evidence.motion, nothing, nothing)
-    samples = frame.to_numpy(dtype=np.float64)
-    return find_fall(
-        evidence.motion, samples[:, 0], samples[:, 1] / evidence.limits.weight
-    )
-
-
-def _normal_force(evidence: Evidence, foot: Foot, wrench: Vector) -> Vector:
-    """Upward part of the force on a foot, (n,), N."""
-    R_WF = evidence.motion.X_WF[foot][:, :3, :3]
-    upward: Vector = np.einsum("nj,nj->n", R_WF[:, 2, :], wrench[:, :3])
-    return upward
-
-
 def foot_contacts(
     evidence: Evidence, wrenches: dict[Foot, Vector] | None
 ) -> dict[Foot, list[tuple[int, int]]] | None:
@@ -122,7 +63,7 @@ def foot_contacts(
         foot: [
             (interval.start, interval.end)
             for interval in contact_intervals(
-                _normal_force(evidence, foot, wrench), evidence.limits.weight
+                upward_force(evidence, foot, wrench), evidence.limits.weight
             )
         ]
         for foot, wrench in wrenches.items()
@@ -187,7 +128,7 @@ def largest_slip(
     slips = [
         foot_slip(
             evidence.motion.sole_corners[foot],
-            _normal_force(evidence, foot, wrench),
+            upward_force(evidence, foot, wrench),
             evidence.limits.weight,
         )
         for foot, wrench in (wrenches or {}).items()
@@ -266,7 +207,7 @@ def least_clearance(
     clearances = [
         swing_clearance(
             evidence.motion.sole_corners[foot],
-            _normal_force(evidence, foot, wrench),
+            upward_force(evidence, foot, wrench),
             evidence.limits.weight,
             edges,
         )
@@ -283,7 +224,7 @@ def crossing_figures(
     if crossing is None:
         return {"min_clearance_m": least_clearance(evidence, wrenches)}
     loads = foot_loads(evidence)
-    felt = _felt(evidence)
+    felt = felt_forces(evidence)
     measured = [
         found
         for box in crossing.boxes
@@ -308,15 +249,6 @@ def crossing_figures(
     }
 
 
-def _felt(evidence: Evidence) -> dict[Foot, Vector] | None:
-    """Mean upward force on each foot at `motion.time`, (n,), N."""
-    frame = evidence.frames.get("contact_monitor.foot_forces")
-    if frame is None:
-        return None
-    both = _at(evidence.motion.time, frame)
-    return {"left": both[:, 2], "right": both[:, 5]}
-
-
 def _reference(evidence: Evidence, port: str) -> pd.DataFrame | None:
     for system in ("reference", "stabilizer"):
         frame = evidence.frames.get(f"{system}.{port}")
@@ -330,7 +262,7 @@ def com_error(evidence: Evidence) -> float | None:
     frame = _reference(evidence, "com")
     if frame is None:
         return None
-    wanted = _at(evidence.motion.time, frame)[:, :3]
+    wanted = signal_at(evidence.motion.time, frame)[:, :3]
     distances = np.linalg.norm(evidence.motion.com - wanted, axis=1)
     return float(np.sqrt(np.mean(distances**2)))
 
@@ -341,7 +273,7 @@ def dcm_error(evidence: Evidence) -> float | None:
     if frame is None or frame.shape[1] < 1 + 6:
         return None
     motion = evidence.motion
-    wanted = _at(motion.time, frame)
+    wanted = signal_at(motion.time, frame)
     reference = replace(
         motion,
         com=np.column_stack([wanted[:, :2], motion.com[:, 2]]),
@@ -358,7 +290,7 @@ def climb_time(
     treads = task_treads(evidence)
     if contacts is None or evidence.activities is None or not treads:
         return None
-    top = tread_ground(treads[-1], "the top tread")
+    top = end_ground(treads)
     arrivals = []
     for foot, intervals in contacts.items():
         corners = evidence.motion.sole_corners[foot]

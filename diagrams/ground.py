@@ -1,5 +1,6 @@
 """What a sole should stand on, and whether it stands flat on it; pure."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -46,6 +47,11 @@ FLOOR = Ground("the floor", RigidTransform())
 def tread_ground(tread: Tread, name: str) -> Ground:
     """A tread as ground, called by a name."""
     return Ground(name, tread.X_WR, tread.size)
+
+
+def end_ground(treads: Sequence[Tread]) -> Ground:
+    """What a robot stands on in the end: the last tread to climb, or the floor."""
+    return tread_ground(treads[-1], "the top tread") if treads else FLOOR
 
 
 def corner_heights(corners: Vector, ground: Ground) -> Vector:

@@ -10,24 +10,26 @@ from typing import Literal, TypeAlias
 
 from diagrams.evidence import Evidence, Stop
 from diagrams.evidence_measures import (
-    CLIMBING,
     climb_time,
     com_error,
     crossing_figures,
     dcm_error,
-    fall,
     foot_contacts,
-    foot_loads,
-    foot_wrenches,
     footsteps,
     goal_error,
     largest_friction_ratio,
     largest_impact,
     largest_slip,
-    last_ground,
     min_static_margin,
     min_zmp_margin,
     steps_climbed,
+)
+from diagrams.evidence_signals import (
+    CLIMBING,
+    fall,
+    foot_loads,
+    foot_wrenches,
+    last_ground,
 )
 from diagrams.falls import Fall
 from diagrams.joint_figures import (
@@ -38,7 +40,7 @@ from diagrams.joint_figures import (
     worst_fraction,
 )
 from diagrams.rest import rest_faults, rest_figures
-from diagrams.rules import SLIP_MENTIONED, broken_rules
+from diagrams.rules import SLIP_MENTIONED, broken_rules, missing_evidence
 from systems.ports import Vector
 from systems.values import Foot, Json
 
@@ -174,6 +176,7 @@ def _verdict(
         reason = "; besides, ".join([evidence.stop_reason, *rules[:1]])
         return STOPPED[evidence.stop], "; ".join([reason, *rules[1:]])
     ground = last_ground(evidence)
+    rules += missing_evidence(evidence, speed[0], slip)
     figures = rest_figures(evidence.motion, loads, evidence.limits.weight, ground)
     unrest = rest_faults(figures, ground)
     if unrest:

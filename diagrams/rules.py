@@ -3,7 +3,9 @@
 import numpy as np
 
 from diagrams.evidence import Evidence
-from diagrams.evidence_measures import CLIMBING, goal_error
+from diagrams.evidence_measures import goal_error
+from diagrams.evidence_signals import CLIMBING
+from diagrams.rest import LONGEST_GAP
 from diagrams.task_params import TASKS
 
 GOAL_DISTANCE = 0.10
@@ -19,7 +21,7 @@ SLIP_ALLOWED = 0.03
 def broken_rules(
     evidence: Evidence, speed: tuple[float | None, str | None], slip: float | None
 ) -> list[str]:
-    """What speaks against a run, one line each; what was not measured does.
+    """The rules that a run broke, one line each.
 
     No joint is faster than its limit, no loaded foot slides by more than
     `SLIP_ALLOWED`, nothing is touched that must not be; in a task that is finished the
@@ -27,29 +29,59 @@ def broken_rules(
 
     Args:
         evidence: of the run.
-        speed: the largest share of a joint's speed limit, and which joint.
-        slip: the farthest that a loaded foot slid, m.
+        speed: the largest share of a joint's speed limit, and which joint; None where
+            it was not watched.
+        slip: the farthest that a loaded foot slid, m; None where it was not measured.
     """
     rules = _goal_faults(evidence) if evidence.stop == "finished" else []
     fraction, joint = speed
-    if fraction is None:
-        rules.append("the joints' speeds were not watched")
-    elif not fraction <= 1.0:
+    if fraction is not None and not fraction <= 1.0:
         rules.append(f"{joint} went at {fraction:.2f} times its speed limit")
-    if slip is None:
-        rules.append("the feet's slip was not measured")
-    elif not slip <= SLIP_ALLOWED:
+    if slip is not None and not slip <= SLIP_ALLOWED:
         rules.append(f"a loaded foot slid by {1e3 * slip:.0f} mm")
-    if "contact_monitor.other_support" not in evidence.frames:
-        rules.append("what others than the soles bore was not watched")
-    if evidence.touches is None:
-        rules.append("what the robot touched was not watched")
     for touch in evidence.touches or ():
         rules.append(
             f"{touch.body} touched {touch.solid} "
             f"({1e3 * touch.duration:.0f} ms, up to {touch.peak_force:.0f} N)"
         )
     return rules
+
+
+def missing_evidence(
+    evidence: Evidence, speed: float | None, slip: float | None
+) -> list[str]:
+    """What of a run was not watched, so that its rules may have been broken.
+
+    Args:
+        evidence: of the run.
+        speed: the largest share of a joint's speed limit.
+        slip: the farthest that a loaded foot slid, m.
+    """
+    known = (
+        (
+            speed is not None and _covers(evidence, "speed_monitor.peak_speeds"),
+            "the joints' speeds were not watched",
+        ),
+        (slip is not None, "the feet's slip was not measured"),
+        (
+            _covers(evidence, "contact_monitor.other_support"),
+            "what others than the soles bore was not watched",
+        ),
+        (evidence.touches is not None, "what the robot touched was not watched"),
+    )
+    return [missing for there, missing in known if not there]
+
+
+def _covers(evidence: Evidence, signal: str) -> bool:
+    """Whether a signal was logged, in numbers, from a run's start to its end."""
+    frame = evidence.frames.get(signal)
+    if frame is None or not len(frame):
+        return False
+    samples = frame.to_numpy(dtype=np.float64)
+    time = np.concatenate([evidence.motion.time[:1], samples[:, 0]])
+    ends = evidence.motion.time[-1] - samples[-1, 0] <= LONGEST_GAP
+    gaps = np.diff(time).max(initial=0.0) <= LONGEST_GAP
+    return bool(ends and gaps and np.isfinite(samples).all())
 
 
 def _goal_faults(evidence: Evidence) -> list[str]:

@@ -27,7 +27,13 @@ from diagrams.summary import (
     timing_us,
 )
 from diagrams.task_diagram import TaskDiagram
-from diagrams.watch import LOOK, RestClock, RobotWatch
+from diagrams.watch import (
+    LIE_TIME,
+    LOOK,
+    WATCHED_REST,
+    HoldClock,
+    RobotWatch,
+)
 from systems.values import Json
 
 REST_WATCH = 5.0
@@ -148,7 +154,7 @@ def simulate(
     stream = task.signals.stream(context, signals_folder) if signals_folder else None
     watch = RobotWatch(task, context)
     end, finished, fell = max_time, False, False
-    resting = RestClock()
+    resting, lying = HoldClock(WATCHED_REST), HoldClock(LIE_TIME)
     stop: Stop = "time limit"
     reason = f"not done after {max_time:g} s"
     error: BaseException | None = None
@@ -170,7 +176,8 @@ def simulate(
             if progress is not None:
                 progress(now, status.activity)
             if fell:
-                if watch.lies():
+                lying.look(now, watch.lies())
+                if lying.done():
                     break
             elif (how := watch.fall()) is not None:
                 fell, end = True, now + FALL_WATCH
@@ -190,11 +197,10 @@ def simulate(
         stop, reason = "interrupted", f"interrupted at {context.get_time():.2f} s"
         error = interrupt
     except Exception as exception:
-        error = exception
+        stop, error = "error", exception
         message = (str(exception).splitlines() or [""])[0]
         what = f"{type(exception).__name__}: {message}"
-        broke = f"the simulation broke off at {context.get_time():.2f} s: {what}"
-        stop, reason = ("fell", f"{reason}; {broke}") if fell else ("error", broke)
+        reason = f"the simulation broke off at {context.get_time():.2f} s: {what}"
     return Simulated(context, stop, reason, perf_counter() - start, error, stream)
 
 
@@ -211,7 +217,7 @@ def _recorded(folder: Path, time: float) -> Iterator[None]:
 
 
 def _advance_to_rest(
-    simulator: Simulator, until: float, watch: RobotWatch, resting: RestClock
+    simulator: Simulator, until: float, watch: RobotWatch, resting: HoldClock
 ) -> None:
     """Simulates in steps of `LOOK`, as long as the robot has not rested enough."""
     context = simulator.get_context()

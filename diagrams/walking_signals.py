@@ -171,7 +171,7 @@ def _record_truth(
         station.speed_monitor.GetOutputPort("peak_speeds"),
         joints,
         "rad/s",
-        VALUE_PERIOD,
+        SIGNAL_PERIOD,
     )
     recorder.add_value(
         "contact_monitor.touches", monitor.GetOutputPort("touches"), VALUE_PERIOD

@@ -5,9 +5,9 @@ from pydrake.multibody.plant import ContactResults
 from pydrake.systems.framework import Context
 
 from diagrams.evidence import robot_limits
-from diagrams.evidence_measures import CLIMBING
+from diagrams.evidence_signals import CLIMBING
 from diagrams.falls import base_height, fall_sign
-from diagrams.ground import FLOOR, tread_ground
+from diagrams.ground import end_ground
 from diagrams.rest import REST_TIME, at_rest, rest_figures
 from diagrams.task_diagram import TaskDiagram
 from diagrams.true_motion import TrueMotion, true_motion
@@ -27,6 +27,10 @@ LIES_STILL = 0.05
 """A robot that has fallen lies when its CoM is slower than this, m/s."""
 LIES_ON = 0.5
 """And something else than its soles bears this share of its weight."""
+LIE_TIME = 0.3
+"""For so long on end, s: a body that strikes the ground may stop for a moment."""
+WATCHED_REST = REST_TIME + 2.0 * LOOK
+"""For so long rest is watched, s: the log ends a little before the simulation."""
 
 
 class RobotWatch:
@@ -54,7 +58,7 @@ class RobotWatch:
         )
         self._weight = robot_limits(plant, task.robot_instance).weight
         treads = task.scene.treads() if task.kind == CLIMBING else ()
-        self._ground = tread_ground(treads[-1], "the top tread") if treads else FLOOR
+        self._ground = end_ground(treads)
         self._initial = float(base_height(self._motion())[0])
 
     def _motion(self) -> TrueMotion:
@@ -98,23 +102,28 @@ class RobotWatch:
         return bool(at_rest(figures)[0])
 
 
-class RestClock:
-    """For how long on end the robot has been at rest."""
+class HoldClock:
+    """For how long on end something has held, at rest or lying."""
 
-    def __init__(self) -> None:
-        """It has not yet."""
+    def __init__(self, duration: float) -> None:
+        """It has not yet held.
+
+        Args:
+            duration: for how long it must, s.
+        """
+        self._duration = duration
         self._since: float | None = None
         self._now = 0.0
 
-    def look(self, time: float, rests: bool) -> None:
-        """Notes whether it is at rest at a time, s."""
+    def look(self, time: float, holds: bool) -> None:
+        """Notes whether it holds at a time, s."""
         self._now = time
-        if not rests:
+        if not holds:
             self._since = None
         elif self._since is None:
             self._since = time
 
     def done(self) -> bool:
-        """Whether that is long enough, and two looks more: the log ends before now."""
-        rested = 0.0 if self._since is None else self._now - self._since
-        return rested >= REST_TIME + 2.0 * LOOK
+        """Whether it has held long enough."""
+        held = 0.0 if self._since is None else self._now - self._since
+        return held >= self._duration - 1e-9

@@ -42,11 +42,11 @@ class ContactMonitor(LeafSystem):
         - contact_results
         output_ports:
         - touching
-        - touches
         - foot_forces
         - other_support
         - impact
         - friction_ratio
+        - touches
 
     - `contact_results`: the plant's contacts, ContactResults.
     - `touching`: how many forbidden contacts there were at the last step, (1,).

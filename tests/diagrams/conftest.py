@@ -228,7 +228,7 @@ def standing_task(
         speeds.GetOutputPort("peak_speeds"),
         tuple(joint.name() for joint in joints),
         "rad/s",
-        0.025,
+        0.005,
     )
     signals.add_value("executive.status", clock.GetOutputPort("status"), 0.005)
     signals.add_value("contact_monitor.touches", monitor.GetOutputPort("touches"), 0.05)

@@ -21,6 +21,7 @@ def test_topology_is_that_of_the_diagram(standing) -> None:
         "posture": "ConstantVectorSource",
         "executive": "Clock",
         "contact_monitor": "ContactMonitor",
+        "speed_monitor": "SpeedMonitor",
         "station": "FootWrenchSensor",
     }
     assert Wire("posture", "y0", "plant", "jvrc1_desired_state", False) in wires

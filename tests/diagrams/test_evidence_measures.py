@@ -12,8 +12,6 @@ from diagrams.evidence_measures import (
     crossing_figures,
     dcm_error,
     foot_contacts,
-    foot_loads,
-    foot_wrenches,
     footsteps,
     largest_friction_ratio,
     largest_impact,
@@ -21,6 +19,7 @@ from diagrams.evidence_measures import (
     min_static_margin,
     steps_climbed,
 )
+from diagrams.evidence_signals import foot_loads, foot_wrenches
 from tests.diagrams.climb_evidence import (
     LEFT,
     LOADS,

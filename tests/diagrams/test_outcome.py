@@ -140,11 +140,41 @@ def test_figures_that_were_not_measured_are_none(climb: Evidence) -> None:
         assert getattr(judgement, name) is None, name
 
 
-@pytest.mark.parametrize("signal", ["station.foot_wrenches"])
-def test_a_signal_that_ends_early_is_not_in_favour(climb: Evidence, signal) -> None:
-    """Its last value is not taken for what came after."""
-    frames = {**climb.frames, signal: climb.frames[signal].iloc[:-10]}
+@pytest.mark.parametrize(
+    "rows", [np.r_[0 : SAMPLES - 10], np.r_[0:300, 320:SAMPLES], np.r_[20:SAMPLES]]
+)
+@pytest.mark.parametrize(
+    ("signal", "reason"),
+    [
+        ("speed_monitor.peak_speeds", "the joints' speeds were not watched"),
+        (
+            "contact_monitor.other_support",
+            "what others than the soles bore was not watched",
+        ),
+    ],
+)
+def test_a_signal_with_a_gap_is_not_in_favour(climb, signal, reason, rows) -> None:
+    """At the end, in the middle, at the start."""
+    frames = {**climb.frames, signal: climb.frames[signal].iloc[rows]}
     judgement = judge(replace(climb, frames=frames))
+    assert (judgement.outcome, judgement.reason) == ("failed", reason)
+
+
+def test_a_support_that_is_not_a_number_is_not_in_favour(climb: Evidence) -> None:
+    """It is no more than a tenth, but no less either."""
+    support = np.zeros((SAMPLES, 1))
+    support[300] = np.nan
+    judgement = judge(with_frame(climb, "contact_monitor.other_support", support))
+    assert judgement.outcome == "failed"
+    assert judgement.reason == "what others than the soles bore was not watched"
+
+
+def test_loads_that_end_early_are_not_in_favour(climb: Evidence) -> None:
+    """Their last value is not taken for what came after."""
+    loads = climb.frames["station.foot_wrenches"].iloc[:-10]
+    judgement = judge(
+        replace(climb, frames={**climb.frames, "station.foot_wrenches": loads})
+    )
     assert judgement.outcome == "failed"
     assert "what the left sole bears was not measured" in judgement.reason
 
@@ -318,7 +348,7 @@ def test_a_speed_that_is_not_a_number_fails(climb: Evidence) -> None:
     peaks = np.tile([1.0, np.nan], (SAMPLES, 1))
     judgement = judge(with_frame(climb, "speed_monitor.peak_speeds", peaks))
     assert judgement.outcome == "failed"
-    assert judgement.reason == "KNEE went at nan times its speed limit"
+    assert judgement.reason.startswith("KNEE went at nan times its speed limit")
 
 
 @pytest.mark.parametrize(
@@ -380,6 +410,13 @@ def test_a_run_that_did_not_finish_names_what_it_broke(climb: Evidence) -> None:
     judgement = judge(evidence)
     assert judgement.outcome == "timed_out"
     assert judgement.reason.startswith("late; besides, R_KNEE_S touched staircase/")
+
+
+def test_a_run_that_did_not_finish_is_not_blamed_for_what_is_missing(climb) -> None:
+    """It is no success anyway; why it stopped is what there is to say."""
+    evidence = replace(climb, stop="interrupted", stop_reason="early", frames={})
+    judgement = judge(replace(evidence, touches=None))
+    assert (judgement.outcome, judgement.reason) == ("interrupted", "early")
 
 
 @pytest.mark.parametrize("stop", ["finished", "infeasible", "time limit"])

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from diagrams.evidence import gather, joint_velocities
-from diagrams.evidence_measures import fall
+from diagrams.evidence_signals import fall
 from diagrams.report import plot_run
 from diagrams.run_folder import RecordingError
 from diagrams.signals import load_run
@@ -76,8 +76,8 @@ def test_a_fall_is_watched_to_the_ground(standing) -> None:
     assert fallen is not None
     assert simulated.context.get_time() > fallen.time + 0.2
     assert evidence.motion.base[-1, 2] < 0.3
-    support = evidence.frames["contact_monitor.other_support"]["fz"].iloc[-1]
-    assert support > 0.5 * evidence.limits.weight
+    support = evidence.frames["contact_monitor.other_support"]["fz"].iloc[-50:]
+    assert (support > 0.4 * evidence.limits.weight).all()
 
 
 def test_a_robot_that_does_not_rest_is_watched_for_five_seconds(standing) -> None:

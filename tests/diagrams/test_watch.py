@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from pydrake.systems.analysis import Simulator
 
-from diagrams.watch import RestClock, RobotWatch
+from diagrams.watch import WATCHED_REST, HoldClock, RobotWatch
 
 
 def test_a_robot_that_stands_rests_and_has_not_fallen(standing) -> None:
@@ -44,9 +44,18 @@ def test_a_robot_that_tips_has_fallen_before_it_lies(standing) -> None:
     assert np.argmax(falls) < np.argmax(lies)
 
 
+def test_what_bears_a_robot_beside_its_soles_is_a_fall(standing, monkeypatch) -> None:
+    """Even where it is as high and as upright as ever."""
+    task = standing.task(end=60.0)
+    watch = RobotWatch(task, Simulator(task.diagram).get_context())
+    monkeypatch.setattr(watch, "_upward", lambda: np.array([0.4, 0.4, 0.2]))
+    sign = "something else than its soles bore 20% of its weight"
+    assert watch.fall() == sign
+
+
 def test_rest_must_last_a_second_on_end() -> None:
     """Every unrest sets the clock back."""
-    clock = RestClock()
+    clock = HoldClock(WATCHED_REST)
     for tick in range(150):
         clock.look(0.005 * tick, tick != 100)
     assert not clock.done()
@@ -60,7 +69,7 @@ def test_rest_must_last_a_second_on_end() -> None:
 @pytest.mark.parametrize("rests", [True, False])
 def test_a_clock_that_saw_nothing_is_not_done(rests: bool) -> None:
     """Nor after a single look."""
-    clock = RestClock()
+    clock = HoldClock(WATCHED_REST)
     assert not clock.done()
     clock.look(7.0, rests)
     assert not clock.done()
