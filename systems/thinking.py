@@ -1,11 +1,11 @@
 """Thinking takes time: how long, and what holds a result until it is there."""
 
 import dataclasses
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from math import ceil
 from typing import Self
 
-from models.validation import require_at_least
+from models.validation import Parameters, number
 from systems.values import Value
 
 ROUNDING = 1e-6
@@ -13,7 +13,7 @@ ROUNDING = 1e-6
 
 
 @dataclass(kw_only=True)
-class ThinkingParams:
+class ThinkingParams(Parameters):
     """How long perception and planning take, s of simulated time.
 
     A result rests on what was sensed when the thinking began and is there at the first
@@ -22,33 +22,24 @@ class ThinkingParams:
     here and, with the machine that it measured on, to `thinking_time.md` beside it.
     """
 
-    segmentation: float = 0.49
+    segmentation: float = number(0.49, "s", least=0.0)
     """From a finished sweep to the staircase."""
-    obstacle_finding: float = 0.31
+    obstacle_finding: float = number(0.31, "s", least=0.0)
     """From a finished sweep to the obstacles on the floor."""
-    room_perception: float = 0.09
+    room_perception: float = number(0.09, "s", least=0.0)
     """From a frame of the ceiling camera to floor and boxes."""
-    climb_planning: float = 0.47
+    climb_planning: float = number(0.47, "s", least=0.0)
     """Footsteps on a staircase and the motion along them."""
-    quasi_static_climb_planning: float = 4.11
+    quasi_static_climb_planning: float = number(4.11, "s", least=0.0)
     """The same where the motion is to be quasi-static."""
-    crossing_planning: float = 0.27
+    crossing_planning: float = number(0.27, "s", least=0.0)
     """Footsteps over obstacles and the motion along them."""
-    quasi_static_crossing_planning: float = 0.21
+    quasi_static_crossing_planning: float = number(0.21, "s", least=0.0)
     """The same where the motion is to be quasi-static."""
-    room_planning: float = 0.04
+    room_planning: float = number(0.04, "s", least=0.0)
     """A path through a room, the footsteps along it and their motion."""
-    stopping: float = 0.03
+    stopping: float = number(0.03, "s", least=0.0)
     """A motion that ends a walk early."""
-
-    def validate(self) -> None:
-        """Checks every field.
-
-        Raises:
-            ValueError: "field: reason, got x" for the first field that is wrong.
-        """
-        for item in fields(self):
-            require_at_least(item.name, getattr(self, item.name), 0.0, "s")
 
 
 @dataclass(frozen=True, eq=False)

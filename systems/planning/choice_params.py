@@ -40,7 +40,7 @@ class ChoiceParams(Parameters):
     """Share of the effort limits that may be asked."""
     limb_clearance: float = number(0.005, "m", least=0.0)
     """Least distance of shins, knees and all above to a nosing, m."""
-    self_clearance: float = number(0.003, "m", least=0.0)
+    self_clearance: float = number(0.002, "m", least=0.0)
     """Least distance of two bodies of the robot that can meet, m: of a thigh that is
     folded before the pelvis little more is left by construction."""
     reach_tolerance: float = number(0.015, "m", above=0.0)

@@ -17,7 +17,7 @@ from systems.planning.feet_adaptor import (
 from systems.planning.foot_trajectory_generator import Crossing, foot_trajectory
 from systems.planning.leg_clearance import Section
 from systems.planning.leg_model import LegModel
-from systems.planning.swing_trajectory import inward_bow
+from systems.planning.thigh_clearance import inward_bow
 from systems.ports import Vector
 from systems.values import FEET
 

@@ -180,6 +180,7 @@ def slowed(
         lean=quasi.lean,
         arm_swing=-quasi.arms,
         waist_yaw=0.0,
+        waist_roll=quasi.waist_roll,
         knee_margin=quasi.knee_margin,
         sampling=quasi.sampling,
     )

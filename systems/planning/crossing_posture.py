@@ -11,7 +11,7 @@ from systems.planning.crossing_params import CrossingParams, Mode
 from systems.planning.crossing_timing import CrossingStep
 from systems.planning.feet_adaptor import Repairs
 from systems.planning.foothold import SIDE
-from systems.planning.swing_trajectory import inward_bow
+from systems.planning.thigh_clearance import inward_bow
 from systems.ports import Vector
 from systems.values import FEET
 

@@ -13,7 +13,6 @@ import numpy as np
 from models.robot import RobotModel
 from systems.balance.zmp_preview import GRAVITY, ZmpPreviewParams, rest_state
 from systems.balance.zmp_tracking import generate_varying_height, height_factor
-from systems.planning.foothold import SIDE
 from systems.planning.footstep_planner import pose_from_xyz_rpy
 from systems.planning.motion_params import MotionPlannerParams
 from systems.planning.step_timing import (
@@ -27,7 +26,8 @@ from systems.planning.step_timing import (
     transfers,
     zmp_weight,
 )
-from systems.planning.swing_trajectory import inward_bow, quintic, swing_trajectory
+from systems.planning.swing_trajectory import quintic, swing_trajectory
+from systems.planning.thigh_clearance import HighSwing, drawn_inwards, raised_hip
 from systems.planning.toe_off import heading, lift_heel, toe_off_pitch
 from systems.ports import Vector
 from systems.values import FEET, Footstep, MotionPlan, other_foot
@@ -228,10 +228,9 @@ def _feet(
         )
         poses[rows, i] = np.hstack([way.positions, way.rpy])
         if step.climbs:
-            u = np.linspace(0.0, 1.0, land + 1 - lift)
-            ahead = heading(step.end[5])
-            inward = np.array([-ahead[1], ahead[0]]) * -SIDE[step.foot]
-            poses[rows, i, :2] += np.outer(params.climb_inward * inward_bow(u), inward)
+            poses[rows, i, :3] = drawn_inwards(
+                way.positions, step.foot, step.end[5], params.climb_inward
+            )
         poses[land + 1 :, i] = step.end
         contacts[lift:land, i] = 0.0
         lengths[lift:land, i] = sole.length
@@ -253,12 +252,8 @@ def _waist(
     rpy = np.zeros((len(time), 3))
     climbs = any(step.climbs for step in steps)
     if climbs:
-        keys = [(0.0, np.zeros(1))]
-        for step in steps:
-            raised = SIDE[step.foot] * params.climb_roll if step.climbs else 0.0
-            keys += [(step.lift, np.array([raised])), (step.land, np.array([raised]))]
-        keys.append((end, np.zeros(1)))
-        rpy[:, 0] = along_keys(time, keys, eased=True)[:, 0]
+        swings = [HighSwing(s.foot, s.lift, s.land, s.climbs) for s in steps]
+        rpy[:, 0] = raised_hip(time, swings, end, params.climb_roll)
         blend = quintic(time / params.lead_in)
         blend -= quintic((time - end) / params.lead_out + 1.0)
         rpy[:, 1] = params.lean * blend

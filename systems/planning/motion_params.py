@@ -53,7 +53,7 @@ class MotionPlannerParams(Parameters):
     lean: float = number(0.30, "rad", least=0.0, below=RIGHT_ANGLE)
     """Forward pitch of the pelvis while climbing, rad; brings the CoM over the bent
     knee and takes torque off it."""
-    climb_inward: float = number(0.06, "m", least=0.0)
+    climb_inward: float = number(0.07, "m", least=0.0)
     """How far a climbing foot swings inwards on its way, m: a folded thigh that reaches
     down and outwards under the swaying pelvis would meet it."""
     climb_roll: float = number(0.08, "rad", least=0.0, below=RIGHT_ANGLE)

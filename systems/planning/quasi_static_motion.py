@@ -9,9 +9,10 @@ from systems.planning.motion import LEVEL
 from systems.planning.motion_params import MotionPlannerParams
 from systems.planning.quasi_static import Segment
 from systems.planning.swing_trajectory import quintic, swing_trajectory
+from systems.planning.thigh_clearance import HighSwing, drawn_inwards, raised_hip
 from systems.planning.toe_off import lift_heel
 from systems.ports import Vector
-from systems.values import FEET, ContactPhase, Footstep, MotionPlan
+from systems.values import FEET, ContactPhase, Foot, Footstep, MotionPlan
 
 
 def play_segments(
@@ -43,6 +44,7 @@ def play_segments(
     waist = np.zeros((n, 3))
     poses, lengths, contacts = np.zeros((n, 2, 6)), np.zeros((n, 2)), np.ones((n, 2))
     phases: list[ContactPhase] = []
+    swings: list[HighSwing] = []
     row = 0
     for segment, count in zip(segments, counts, strict=True):
         # The last segment's rows go to the end; a later one overwrites its own.
@@ -56,12 +58,18 @@ def play_segments(
         poses[rows] = _feet(segment, u[:, 0], count, edges, params, robot)
         if segment.swing is not None:
             contacts[row : row + count, FEET.index(segment.swing)] = 0.0
+            land = (row + count) * period
+            rise = _rise(segment, segment.swing, robot)
+            high = abs(rise) > params.climb_threshold
+            swings.append(HighSwing(segment.swing, row * period, land, high))
         start = row * period
         row += count + pause
         phases.append(ContactPhase(start, row * period, segment.stance, segment.swing))
     velocity: Vector = np.asarray(np.gradient(com, period, axis=0))
     acceleration: Vector = np.asarray(np.gradient(velocity, period, axis=0))
     zmp[:, :2] = com[:, :2]
+    time: Vector = np.arange(n, dtype=np.float64) * period
+    waist[:, 0] = raised_hip(time, swings, time[-1], params.climb_roll)
     waist[:, 2] = poses[:, :, 5].mean(axis=1)
     return MotionPlan(
         start_time=0.0,
@@ -91,6 +99,13 @@ def _ground(segment: Segment, com: Vector) -> Vector:
     return height
 
 
+def _rise(segment: Segment, foot: Foot, robot: RobotModel) -> float:
+    """How much higher a foot ends than the ground it leaves, heel up or not, m."""
+    start, end = (feet[FEET.index(foot)] for feet in (segment.start, segment.end))
+    rise: float = end[2] - start[2] + robot.sole.toe * np.sin(start[4])
+    return rise
+
+
 def _feet(
     segment: Segment,
     u: Vector,
@@ -108,7 +123,7 @@ def _feet(
             if end[4] > start[4]:
                 poses[:, i] = lift_heel(start, u * end[4], robot.sole)
             continue
-        ground = start[2] - robot.sole.toe * np.sin(start[4])
+        ground = end[2] - _rise(segment, foot, robot)
         way = swing_trajectory(
             pose_from_xyz_rpy(start),
             pose_from_xyz_rpy(end),
@@ -120,5 +135,8 @@ def _feet(
         )
         stop = min(n, count + 1)
         poses[:stop, i] = np.hstack([way.positions, way.rpy])[:stop]
+        if abs(_rise(segment, foot, robot)) > params.climb_threshold:
+            bowed = drawn_inwards(way.positions, foot, end[5], params.climb_inward)
+            poses[:stop, i, :3] = bowed[:stop]
         poses[stop:, i] = end
     return poses

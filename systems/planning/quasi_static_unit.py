@@ -47,6 +47,8 @@ class QuasiStaticCrossingParams(Parameters):
     com_end: float = number(0.0, "m")
     """CoM ahead of the front ankle as phase 2 ends, m; behind the middle of the sole,
     for the rear leg must reach."""
+    waist_roll: float = number(0.10, "rad", least=0.0, below=RIGHT_ANGLE)
+    """How far the pelvis rolls to raise the hip of the foot over the obstacle, rad."""
     lean: float = number(0.3, "rad", least=0.0, below=RIGHT_ANGLE)
     """Forward pitch of the pelvis as phase 2 ends, rad: with the arms it holds the
     waist back from the CoM, which keeps the front knee near the load."""

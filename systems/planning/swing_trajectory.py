@@ -114,18 +114,6 @@ def quintic(u: Vector) -> Vector:
     return u**3 * (10.0 - 15.0 * u + 6.0 * u**2)
 
 
-def inward_bow(u: Vector) -> Vector:
-    """Share of its greatest way aside at which a foot is that swings in a bow.
-
-    16 u^2 (1 - u)^2: 0 at both ends without velocity, 1 in the middle.
-
-    Args:
-        u: part of the duration, 0 to 1.
-    """
-    bow: Vector = 16.0 * (u * (1.0 - u)) ** 2
-    return bow
-
-
 def swing_trajectory(
     X_WStart: RigidTransform,
     X_WEnd: RigidTransform,

@@ -93,7 +93,9 @@ def set_defaults(source: str, thoughts: dict[str, dict[str, float]]) -> str:
     """
     for kind, row in thoughts.items():
         source, count = re.subn(
-            rf"(?m)^(    {kind}: float = ).+$", rf"\g<1>{row['default']}", source
+            rf"(?m)^(    {kind}: float = number\()[^,]+",
+            rf"\g<1>{row['default']}",
+            source,
         )
         if count != 1:
             raise ValueError(f"{kind}: found {count} times in the source, expected 1")
