@@ -104,12 +104,6 @@ def refusal_of(report: CrossingReport, crossing: CrossingParams) -> str:
             f"{what}: a leg comes within {1e3 * report.gap:.0f} mm of it, less "
             f"than {1e3 * crossing.least_gap:.0f} mm, after all repairs"
         )
-    if report.self_distance < crossing.least_self_distance:
-        return (
-            f"{what}: {' and '.join(report.self_bodies)} come within "
-            f"{1e3 * report.self_distance:.0f} mm of each other, less than "
-            f"{1e3 * crossing.least_self_distance:.0f} mm"
-        )
     if report.short > crossing.most_short:
         return f"{what}: a leg is {1e3 * report.short:.0f} mm too short"
     if report.limit_distance < crossing.least_limit:
@@ -127,6 +121,12 @@ def refusal_of(report: CrossingReport, crossing: CrossingParams) -> str:
         return (
             f"{what}: Eq. 20: the ZMP leaves its reference by {1e3 * error:.0f} mm, "
             f"more than {1e3 * crossing.most_zmp_error:.0f} mm"
+        )
+    if report.self_distance < crossing.least_self_distance:
+        return (
+            f"{what}: {' and '.join(report.self_bodies)} come within "
+            f"{1e3 * report.self_distance:.0f} mm of each other, less than "
+            f"{1e3 * crossing.least_self_distance:.0f} mm"
         )
     balance, quasi = report.balance, crossing.quasi_static
     if balance is None:

@@ -103,30 +103,38 @@ def choose_motion(
 
 
 def _no_better(
-    least: float, choice: ChoiceParams, miss: float, stray: float, gap: float
+    least: float,
+    choice: ChoiceParams,
+    miss: float,
+    stray: float,
+    gap: float,
+    self_distance: float,
 ) -> bool:
     """Whether a motion need not be looked at further: one was refused for less."""
-    return max(kinematic_excess(miss, stray, gap, choice)) >= least
+    return max(kinematic_excess(miss, stray, gap, self_distance, choice)) >= least
 
 
 def kinematic_excess(
-    miss: float, stray: float, gap: float, choice: ChoiceParams
-) -> tuple[float, float, float]:
+    miss: float, stray: float, gap: float, self_distance: float, choice: ChoiceParams
+) -> tuple[float, float, float, float]:
     """What postures violate, as multiples of what is allowed; 1 is the limit.
 
     Args:
         miss: distance by which a sole misses its pose, m.
         stray: of a joint above the legs from its posture, rad.
         gap: between a limb and a step, m.
+        self_distance: between two bodies of the robot, m.
         choice: what is allowed.
 
     Returns:
-        Of the reach of the legs, of the posture and of the clearance.
+        Of the reach of the legs, of the posture, of the clearance from steps and from
+        the robot itself.
     """
     return (
         miss / choice.reach_tolerance,
         stray / choice.posture_tolerance,
         1.0 + (choice.limb_clearance - gap) / GAP_SCALE,
+        1.0 + (choice.self_clearance - self_distance) / GAP_SCALE,
     )
 
 
@@ -147,7 +155,10 @@ def violation(
     found: list[tuple[float, str]] = []
     miss, stray = float(prediction.foot_error.max()), float(prediction.stray.max())
     gap, limb, close = prediction.worst_gap()
-    of_reach, of_posture, of_clearance = kinematic_excess(miss, stray, gap, choice)
+    nearest, met = prediction.worst_self_distance()
+    of_reach, of_posture, of_clearance, of_itself = kinematic_excess(
+        miss, stray, gap, nearest.distance, choice
+    )
     if of_reach > 1.0:
         when = prediction.time[int(prediction.foot_error.argmax())]
         found.append(
@@ -174,13 +185,12 @@ def violation(
                 f"{close:.1f} s, less than {choice.limb_clearance:.3f} m",
             )
         )
-    nearest, when = prediction.worst_self_distance()
-    if nearest.distance < choice.self_clearance:
+    if of_itself > 1.0:
         found.append(
             (
-                1.0 + (choice.self_clearance - nearest.distance) / GAP_SCALE,
+                of_itself,
                 f"clearance: {' and '.join(nearest.bodies)} would come within "
-                f"{nearest.distance:.3f} m of each other at {when:.1f} s, less than "
+                f"{nearest.distance:.3f} m of each other at {met:.1f} s, less than "
                 f"{choice.self_clearance:.3f} m",
             )
         )

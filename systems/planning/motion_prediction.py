@@ -160,7 +160,7 @@ class MotionPredictor:
         yaw: float,
         tick: float = TICK,
         first: float = 0.0,
-        hopeless: Callable[[float, float, float], bool] | None = None,
+        hopeless: Callable[[float, float, float, float], bool] | None = None,
     ) -> MotionPrediction:
         """Carries out a plan in thought.
 
@@ -172,8 +172,9 @@ class MotionPredictor:
             tick: between the postures that are looked at, s.
             first: when the prediction begins, s after the plan's start; the plan is
                 at rest then.
-            hopeless: told the foot error, the stray and the least gap of each
-                posture; where it says so, the prediction ends there.
+            hopeless: told the foot error, the stray, the least gap and the least
+                distance of two bodies in each posture; where it says so, the
+                prediction ends there.
 
         Returns:
             The prediction.
@@ -206,7 +207,12 @@ class MotionPredictor:
             self_distances.append(self._meter.nearest(q, SELF_RANGE))
             if len(edges):
                 gaps[k] = self._gaps(context, edges, yaw)
-            if hopeless and hopeless(foot_error[k], stray[k], float(gaps[k].min())):
+            if hopeless and hopeless(
+                foot_error[k],
+                stray[k],
+                float(gaps[k].min()),
+                self_distances[-1].distance,
+            ):
                 rows = rows[: k + 1]
                 break
             v, _ = self._ik.solve(context, self._target(plan, row, stride))

@@ -141,7 +141,9 @@ def test_an_independent_solver_finds_the_same() -> None:
         to_centre[:3, :3] = to_centre[3:, 3:] = R.T
         to_centre[3:, :3] = -R.T @ cross_matrix(p_FC_W)
         A = contact_wrench_cone(
-            max(0.5 * length - 0.004, 0.25 * length), SOLE.half_width - 0.004, 0.6
+            max(0.5 * length - params.edge_margin, 0.25 * length),
+            SOLE.half_width - params.edge_margin,
+            0.6,
         )
         block = w[6 * i : 6 * i + 6]
         program.AddLinearConstraint(

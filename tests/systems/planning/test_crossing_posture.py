@@ -127,7 +127,21 @@ def test_the_waist_turns_the_leading_hip_ahead(lead: Foot, side: float) -> None:
     np.testing.assert_allclose(rpy[middle, 2], side * PARAMS.waist_yaw)
     np.testing.assert_allclose(rpy[after, 2], 0.0, atol=1e-12)
     np.testing.assert_allclose(rpy[middle, 1], PARAMS.lean)
-    assert not rpy[:, 0].any()
+
+
+@pytest.mark.parametrize(("lead", "side"), [("left", 1.0), ("right", -1.0)])
+def test_the_waist_raises_the_hip_of_the_foot_over_the_obstacle(
+    lead: Foot, side: float
+) -> None:
+    """Left up is positive; level on the ground before, between and after."""
+    steps, time, feet = _timed(lead)
+    rpy = waist_rpy(time, steps, feet, PARAMS)
+    for phase in _phases(steps, time):
+        np.testing.assert_allclose(rpy[phase, 0], 0.0, atol=1e-12)
+    for step, sign in zip(steps[1:3], (side, -side), strict=True):
+        roll = sign * rpy[(time > step.lift) & (time < step.land), 0]
+        assert roll.max() == pytest.approx(PARAMS.waist_roll, rel=1e-3)
+        assert roll.min() > 0.0
 
 
 def test_the_arms_swing_with_it() -> None:

@@ -9,7 +9,7 @@ from systems.planning.motion_params import MotionPlannerParams
 
 ZERO_ALLOWED = {
     *("zmp_forward", "climb_zmp_forward", "zmp_inward", "lean", "max_toe_off"),
-    "toe_off_start",
+    *("toe_off_start", "climb_inward", "climb_roll"),
 }
 NUMBERS = [
     field.name
