@@ -7,10 +7,9 @@ from contextlib import contextmanager
 from html import escape
 from typing import NamedTuple
 
-import pygraphviz  # type: ignore[import-untyped]
 from pydrake.systems.framework import Diagram, PortDataType, System
-from pydrake.systems.primitives import VectorLogSink
 
+from systems.signal_log import SignalLog
 from systems.value_log_sink import ValueLogSink
 
 VECTOR_COLOR, ABSTRACT_COLOR = "#1f5fa8", "#b3541e"
@@ -104,6 +103,9 @@ def block_diagram_svg(diagram: Diagram, title: str) -> str:
     Blocks are coloured by what they are for; wires that carry vectors are solid and
     blue, those that carry abstract values dashed and brown.
     """
+    # Where its X11 libraries are missing, all but this one picture can be drawn.
+    import pygraphviz  # type: ignore[import-untyped]
+
     blocks, wires = topology(diagram)
     graph = pygraphviz.AGraph(directed=True, strict=False)
     graph.graph_attr.update(
@@ -147,7 +149,7 @@ def _without_library_warnings() -> Iterator[None]:
 
 
 def _is_log(system: System) -> bool:
-    return isinstance(system, VectorLogSink | ValueLogSink)
+    return isinstance(system, SignalLog | ValueLogSink)
 
 
 def _fill(system: System) -> str:

@@ -2,27 +2,29 @@
 
 import logging
 import math
-import tempfile
+import sys
 from collections.abc import Iterator
-from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from diagrams.interruption import StopSignals
+
 # What simulates takes seconds to import; every command imports what it needs, so that
 # the help text comes at once.
 if TYPE_CHECKING:
-    from rich.console import Console
+    from pydrake.geometry import Meshcat
 
     from diagrams.scenario import Scenario
-    from diagrams.summary import Summary
     from systems.ports import Vector
 
-RUNS_FOLDER = Path("runs")
-"""Where runs go by default."""
 SLOPE = 15.0
 """Of the planes that `segment` keeps, deg; what `PlaneSegmenterParams` has."""
+LOCAL_HOST = "127.0.0.1"
+"""Where `--meshcat` listens by default: nobody else's machine reaches it."""
 DONE, NOT_DONE, BAD_INPUT = 0, 1, 2
 """Exit status: the task was done, it was not, it could not be understood."""
 
@@ -36,7 +38,8 @@ app = typer.Typer(
     help="Humanoids that see stairs, obstacles and clutter, and walk them, simulated "
     "closed loop with Drake.",
     epilog="Exit status: 0 the task was done; 1 it was not (failed, fell, infeasible, "
-    "timed out, cut); 2 bad input; 130 and 143 interrupted.",
+    "timed out, cut), or its folder could not be written; 2 bad input; 130 and 143 "
+    "interrupted by Ctrl-C and SIGTERM.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
@@ -63,13 +66,35 @@ SetOption = Annotated[
 ]
 
 
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        from importlib.metadata import version
+
+        typer.echo(f"footfall {version('footfall')}")
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version",
+            help="Print the version and leave.",
+            callback=_print_version,
+            is_eager=True,
+        ),
+    ] = False,
+) -> None:
+    """Options of the command itself; `help` of the app says what it does."""
+
+
 @app.command("list")
 def list_command() -> None:
     """List the shipped scenarios, a line each."""
-    from diagrams.scenario import list_scenarios
+    from diagrams.shipped import list_scenarios
 
-    with _bad_input_in_one_line():
-        scenarios = list_scenarios()
+    scenarios = list_scenarios()
     width = max(len(name) for name, _ in scenarios)
     for name, description in scenarios:
         typer.echo(f"{name:<{width}}  {description}")
@@ -82,8 +107,8 @@ def run(
         Path | None,
         typer.Option(
             metavar="DIR",
-            help="Folder to write, new or empty; by default "
-            f"{RUNS_FOLDER}/SCENARIO-seedN, numbered if that exists.",
+            help="Folder to write, new or empty; by default runs/SCENARIO-seedN with "
+            "what was set, numbered if that exists.",
             show_default=False,
         ),
     ] = None,
@@ -97,18 +122,29 @@ def run(
     meshcat: Annotated[
         bool, typer.Option("--meshcat", help="Show the run live in a browser.")
     ] = False,
+    meshcat_host: Annotated[
+        str,
+        typer.Option(
+            metavar="ADDRESS",
+            help="Interface that --meshcat listens on; '*' for every one.",
+        ),
+    ] = LOCAL_HOST,
 ) -> None:
     """Simulate a scenario closed loop; write the run folder; print the summary.
 
-    Ctrl-C ends a run early; what it has logged is kept.
+    Ctrl-C or SIGTERM ends a run early; it is judged and kept, but not drawn. The
+    signals go to disk while it runs: what is killed has all but its last second.
     """
     with _bad_input_in_one_line():
-        chosen = _load(scenario, overrides, seed)
-        folder = _free_folder(chosen, out)
-        summary = _simulate(chosen, folder, meshcat)
-    from diagrams.summary_table import print_summary
+        from diagrams.run_command import run_scenario
+        from diagrams.tasks import build_task
 
-    print_summary(summary, folder)
+        _quiet_drake()
+        changes = list(overrides or [])
+        chosen = _load(scenario, changes, seed)
+        show = partial(_start_meshcat, meshcat_host) if meshcat else None
+        with StopSignals() as stop, _run_ends_in_one_line(stop):
+            summary = run_scenario(chosen, changes, out, build_task, stop, show)
     raise typer.Exit(DONE if summary.outcome == "completed" else NOT_DONE)
 
 
@@ -117,7 +153,8 @@ def segment(
     cloud: Annotated[
         Path,
         typer.Argument(
-            metavar="CLOUD", help="Point cloud: .pcd, .ply, .xyz, .txt or .npz."
+            metavar="CLOUD",
+            help="Point cloud in metres: .pcd, .ply, .xyz, .txt, .csv, .npy or .npz.",
         ),
     ],
     gravity: Annotated[
@@ -157,6 +194,8 @@ def segment(
         f"{result.points} points: {len(found.planes)} planes, "
         f"{len(found.staircase.treads)} treads"
     )
+    for doubt in result.doubts:
+        typer.echo(f"  {doubt}")
     for stage, milliseconds in found.times_ms:
         typer.echo(f"  {stage:<16} {milliseconds:8.1f} ms")
     typer.echo(f"{result.planes_json}\n{result.planes_png}")
@@ -246,6 +285,9 @@ def diagram(
 
 def main() -> None:
     """Runs the command line."""
+    logging.basicConfig(format="%(name)s: %(message)s")
+    # It too warns of a cache that cannot be written, and makes do without.
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)
     app()
 
 
@@ -258,79 +300,13 @@ def _load(name: str, overrides: list[str] | None, seed: int | None) -> "Scenario
     return load_scenario(name, changes)
 
 
-def _free_folder(scenario: "Scenario", out: Path | None) -> Path:
-    """The folder that was asked for, or the first that is free of the default ones."""
-    if out is not None:
-        if out.exists() and (not out.is_dir() or any(out.iterdir())):
-            raise OptionError(f"--out {out}: exists and is not an empty folder")
-        _require_writable(out)
-        return out
-    name = f"{scenario.name}-seed{scenario.simulation.seed}"
-    folder, number = RUNS_FOLDER / name, 1
-    while folder.exists():
-        number += 1
-        folder = RUNS_FOLDER / f"{name}-{number}"
-    return folder
+def _start_meshcat(host: str) -> "Meshcat":
+    from diagrams.live_view import meshcat_at
 
-
-def _require_writable(out: Path) -> None:
-    """Tells before a run of minutes, rather than after it, that it cannot be kept."""
     try:
-        out.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=out.parent):
-            pass
-    except OSError as error:
-        raise OptionError(
-            f"--out {out}: cannot be written: {error.strerror}"
-        ) from error
-
-
-def _simulate(scenario: "Scenario", folder: Path, live: bool) -> "Summary":
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
-
-    console = Console(stderr=True)
-    with _status(console, "building the diagram"):
-        from pydrake.geometry import Meshcat
-
-        from diagrams.illustrations import illustrate
-        from diagrams.simulation import run_task
-        from diagrams.tasks import build_task
-
-        _quiet_drake()
-        meshcat = Meshcat() if live else None
-        task = build_task(scenario, meshcat)
-    if meshcat is not None:
-        console.print(f"watch at {meshcat.web_url()}")
-    limit = scenario.simulation.max_time
-    with Progress(
-        TextColumn("{task.fields[activity]:<6}"),
-        BarColumn(),
-        TextColumn("{task.completed:6.1f} s of at most {task.total:g} s, took"),
-        TimeElapsedColumn(),
-        console=console,
-        transient=True,
-        disable=not console.is_terminal,
-    ) as bar:
-        job = bar.add_task("", total=limit, activity="")
-        summary = run_task(
-            task,
-            scenario,
-            folder,
-            progress=lambda time, activity: bar.update(
-                job, completed=time, activity=activity
-            ),
-            realtime_rate=1.0 if live else 0.0,
-        )
-    with _status(console, "drawing figures, replay and block diagram"):
-        for complaint in illustrate(folder, task.diagram):
-            console.print(f"footfall: {complaint}", style="yellow", highlight=False)
-    return summary
-
-
-def _status(console: "Console", doing: str) -> AbstractContextManager[object]:
-    """Where there is no terminal a spinner would only fill the log with blank lines."""
-    return console.status(doing) if console.is_terminal else nullcontext()
+        return meshcat_at(host)
+    except RuntimeError as error:
+        raise OptionError(f"--meshcat-host {host}: {error}") from error
 
 
 def _parse_direction(text: str) -> "Vector":
@@ -362,6 +338,21 @@ def _quiet_drake() -> None:
 
 
 @contextmanager
+def _run_ends_in_one_line(stop: StopSignals) -> Iterator[None]:
+    """What a signal or a full disk ends says so, and exits with the status of that."""
+    from diagrams.run_folder import RecordingError
+
+    try:
+        yield
+    except RecordingError as error:
+        typer.echo(f"footfall: {error}", err=True)
+        raise typer.Exit(NOT_DONE) from None
+    except KeyboardInterrupt as interrupt:
+        typer.echo(f"footfall: {str(interrupt) or 'interrupted'}", err=True)
+        raise typer.Exit(stop.exit_status()) from None
+
+
+@contextmanager
 def _bad_input_in_one_line() -> Iterator[None]:
     """What the user can mend ends in one line on stderr and exit status 2."""
     try:
@@ -378,14 +369,19 @@ def _message(error: Exception) -> str:
     """What the system says of a file comes with its name first, as ours does."""
     if isinstance(error, OSError) and error.filename is not None and error.strerror:
         return f"{error.filename}: {error.strerror}"
-    return str(error)
+    return getattr(error, "strerror", None) or str(error)
 
 
 def _bad_input_errors() -> tuple[type[Exception], ...]:
-    from diagrams.scenario import ScenarioError
-    from diagrams.signals import RunError
-    from systems.perception.cloud_files import CloudFileError
-    from systems.perception.environment_xml import EnvironmentFileError
-
-    own = (ScenarioError, RunError, CloudFileError, EnvironmentFileError, OptionError)
-    return *own, OSError
+    """Those of what was imported; what was not has raised nothing."""
+    homes = (
+        ("diagrams.run_folder", "OutError"),
+        ("diagrams.scenario", "ScenarioError"),
+        ("diagrams.signals", "RunError"),
+        ("systems.perception.cloud_files", "CloudFileError"),
+        ("systems.perception.environment_xml", "EnvironmentFileError"),
+    )
+    own = [
+        getattr(sys.modules[home], name) for home, name in homes if home in sys.modules
+    ]
+    return OptionError, OSError, *own

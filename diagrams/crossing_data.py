@@ -230,7 +230,7 @@ def without_adaptation(
         planned: what was carried out.
     """
     scenario = crossing.data.run.scenario
-    robot, params = scenario.robot.model(), scenario.parameters
+    robot, params = scenario.robot.model(), scenario.controllers()
     body = planning_body(robot, robot_alone(robot))
     motion = plan_crossing(
         planned.feet[0],

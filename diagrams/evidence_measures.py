@@ -286,7 +286,7 @@ def dcm_error(evidence: Evidence) -> float | None:
 def climb_time(
     evidence: Evidence, contacts: dict[Foot, list[tuple[int, int]]] | None
 ) -> float | None:
-    """Time spent moving until the last touch-down on the top tread."""
+    """Time spent moving, not scanning or thinking, until the last touch-down on top."""
     treads = task_treads(evidence)
     if contacts is None or evidence.activities is None or not treads:
         return None

@@ -17,6 +17,7 @@ SUPPORT = "#dee2e6"
 ACTIVITY_COLORS = {
     "scan": "#e7f5ff",
     "plan": "#fff3bf",
+    "replan": "#fff3bf",
     "look": "#e7f5ff",
     "stop": "#ffe3e3",
 }

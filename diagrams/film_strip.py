@@ -27,6 +27,7 @@ from pydrake.systems.sensors import CameraInfo
 from diagrams.crossing_data import PLAN_SIGNAL, PlannedCrossing, planned_crossings
 from diagrams.evidence import STATE_SIGNAL
 from diagrams.run_data import mover_positions
+from diagrams.signal_files import whole_file
 from diagrams.signals import Run, RunError, load_run
 from models.mover import add_movers
 from models.robot_loader import add_robot
@@ -89,10 +90,10 @@ def render_run(
     pictures = render_states(run, state[rows], view, movers)
     path = folder / STRIP_FILE
     path.parent.mkdir(exist_ok=True)
-    partial = path.with_suffix(".partial")
     figure = strip_figure(pictures, moments - first)
-    FigureCanvasAgg(figure).print_png(str(partial))  # type: ignore[no-untyped-call]
-    return partial.replace(path)
+    with whole_file(path) as partial:
+        FigureCanvasAgg(figure).print_png(str(partial))  # type: ignore[no-untyped-call]
+    return path
 
 
 def render_states(

@@ -1,4 +1,4 @@
-"""The pictures of a run: figures, replay and block diagram, each on its own."""
+"""The pictures of a run: replay, block diagram and figures, each on its own."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -8,13 +8,14 @@ from pydrake.systems.framework import Diagram
 from diagrams.block_diagram import block_diagram_svg
 from diagrams.replay import replay_run
 from diagrams.report import plot_run
+from diagrams.signal_files import whole_file
 from diagrams.signals import load_run
 
 DIAGRAM_FILE = "diagram.svg"
 
 
 def illustrate(folder: Path, diagram: Diagram) -> list[str]:
-    """Adds figures, replay and block diagram to a finished run.
+    """Adds replay, block diagram and figures to a finished run.
 
     A run that took minutes is worth more than its pictures: one that cannot be drawn
     does not stop the others.
@@ -29,12 +30,14 @@ def illustrate(folder: Path, diagram: Diagram) -> list[str]:
 
     def draw_diagram(run: Path) -> None:
         svg = block_diagram_svg(diagram, load_run(run).scenario.name)
-        (run / DIAGRAM_FILE).write_text(svg, encoding="utf-8")
+        with whole_file(run / DIAGRAM_FILE) as path:
+            path.write_text(svg, encoding="utf-8")
 
+    # The slowest last: whoever does not wait for it has the others.
     pictures: dict[str, Callable[[Path], object]] = {
-        "figures": plot_run,
         "replay": replay_run,
         "block diagram": draw_diagram,
+        "figures": plot_run,
     }
     complaints = []
     for name, draw in pictures.items():

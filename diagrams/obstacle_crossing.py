@@ -48,14 +48,16 @@ def build_obstacle_crossing(
     Returns:
         The diagram, its default context where the robot starts.
     """
-    params = scenario.parameters
+    params = scenario.controllers()
     robot = ROBOTS[scenario.robot.name]
     builder = DiagramBuilder()
 
-    station = add_station(builder, scenario, robot, params.ik.period)
+    station = add_station(builder, scenario, robot, params.control_period)
     lidar, assembler = add_lidar(builder, scenario, station)
     finder = add_system(
-        builder, "obstacle_finder", ObstacleFinder(params.obstacle_finder)
+        builder,
+        "obstacle_finder",
+        ObstacleFinder(params.obstacle_finder, params.thinking.obstacle_finding),
     )
     for port in ("cloud", "sweep"):
         builder.Connect(assembler.GetOutputPort(port), finder.GetInputPort(port))
@@ -83,7 +85,15 @@ def build_obstacle_crossing(
     builder.Connect(goal_source.get_output_port(), planner.GetInputPort("goal"))
 
     executive = add_system(
-        builder, "executive", Executive(params.executive, stand.plan)
+        builder,
+        "executive",
+        Executive(
+            params.executive,
+            stand.plan,
+            params.thinking.quasi_static_crossing_planning
+            if scenario.task.mode == "quasi_static"
+            else params.thinking.crossing_planning,
+        ),
     )
     builder.Connect(finder.GetOutputPort("sweep"), executive.GetInputPort("sweep"))
     builder.Connect(executive.GetOutputPort("scan"), lidar.GetInputPort("enable"))

@@ -8,7 +8,9 @@ from pydrake.multibody.plant import AddMultibodyPlantSceneGraph
 from pydrake.systems.framework import DiagramBuilder
 
 from diagrams.evidence import STATE_SIGNAL
+from diagrams.live_view import meshcat_at
 from diagrams.run_data import mover_positions
+from diagrams.signal_files import whole_file
 from diagrams.signals import RunError, load_run
 from models.mover import add_movers
 from models.robot import RobotModel
@@ -68,7 +70,7 @@ def replay_html(
         )
     positions = state[:, : plant.num_positions(instance)]
     rate = min(FRAME_RATE, MAX_FRAMES / max(float(time[-1] - time[0]), 1e-3))
-    meshcat = Meshcat()
+    meshcat = meshcat_at()
     for path in ("/Grid", "/Axes"):
         meshcat.SetProperty(path, "visible", False)
     params = MeshcatVisualizerParams()
@@ -108,9 +110,9 @@ def replay_run(folder: Path) -> Path:
     movers = mover_positions(run, samples[:, 0])
     html = replay_html(robot, scene, samples[:, 0], samples[:, 1:], movers)
     path = folder / REPLAY_FILE
-    partial = path.with_suffix(".partial")
-    partial.write_text(html, encoding="utf-8")
-    return partial.replace(path)
+    with whole_file(path) as partial:
+        partial.write_text(html, encoding="utf-8")
+    return path
 
 
 def _hides_the_view(solid: str) -> bool:

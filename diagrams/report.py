@@ -34,6 +34,7 @@ from diagrams.figure_parts import (
 from diagrams.measures import contact_intervals
 from diagrams.room_view import draw_room
 from diagrams.run_data import RunData, read_run_data
+from diagrams.signal_files import whole_file
 from diagrams.stick_diagram import stick_diagram
 from diagrams.transverse_view import POLYGON_SIGNAL, transverse_view
 from models.staircase import Tread
@@ -91,11 +92,11 @@ def plot_run(folder: Path) -> list[Path]:
     paths = []
     for name, draw in figures.items():
         path = target / f"{name}.png"
-        unfinished = path.with_suffix(".partial")
         canvas = FigureCanvasAgg(draw(data))
         canvas.figure.set_dpi(DPI)
-        canvas.print_png(str(unfinished))  # type: ignore[no-untyped-call]
-        paths.append(unfinished.replace(path))
+        with whole_file(path) as partial_path:
+            canvas.print_png(str(partial_path))  # type: ignore[no-untyped-call]
+        paths.append(path)
     return paths
 
 

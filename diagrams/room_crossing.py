@@ -1,5 +1,7 @@
 """Cross a cluttered room that a ceiling camera sees (room paper, closed loop)."""
 
+import dataclasses
+
 import numpy as np
 from pydrake.common.value import AbstractValue
 from pydrake.geometry import Meshcat
@@ -38,11 +40,11 @@ def build_room_crossing(
     Raises:
         EnvironmentFileError: the scenario's environment cannot be read.
     """
-    params = scenario.parameters
+    params = scenario.controllers()
     robot = ROBOTS[scenario.robot.name]
     builder = DiagramBuilder()
 
-    station = add_station(builder, scenario, robot, params.ik.period)
+    station = add_station(builder, scenario, robot, params.control_period)
     frame, environment = add_perception(builder, scenario, station)
 
     goal: Vector = np.array(scenario.task.goal, dtype=np.float64)
@@ -89,10 +91,14 @@ def build_room_crossing(
             robot,
         )
 
+    thinking = params.thinking
+    if scenario.task.environment is not None:
+        # What a file says is known; nothing is perceived.
+        thinking = dataclasses.replace(thinking, room_perception=0.0)
     executive = add_system(
         builder,
         "executive",
-        PathExecutive(params.path_executive, robot.sole, stand.plan, stop),
+        PathExecutive(params.path_executive, robot.sole, stand.plan, stop, thinking),
     )
     builder.Connect(frame, executive.GetInputPort("frame"))
     builder.Connect(environment, executive.GetInputPort("environment"))

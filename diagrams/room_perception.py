@@ -43,7 +43,7 @@ def add_perception(
     if scenario.task.environment is not None:
         return _add_file(builder, Path(scenario.task.environment))
     camera = _add_camera(builder, scenario, station)
-    params = scenario.parameters
+    params = scenario.controllers()
     cloud = add_system(
         builder,
         "depth_cloud",

@@ -4,26 +4,31 @@ import difflib
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from importlib import resources
 from pathlib import Path
 
 import numpy as np
-from pydrake.common.yaml import yaml_dump, yaml_dump_typed, yaml_load_typed
+import yaml
+from pydrake.common.yaml import yaml_dump, yaml_load_typed
 
-from diagrams.schema import FieldError, Mapping, check, parse_yaml, set_field, validate
+from diagrams.schema import (
+    FieldError,
+    Mapping,
+    check,
+    parse_yaml,
+    plain,
+    set_field,
+    validate,
+)
+from diagrams.shipped import shipped_scenarios
 from diagrams.task_params import TaskParams
+from models.contact_geometry import CONTACT_MODELS
 from models.jvrc1 import JVRC1
 from models.robot import RobotModel
 from models.room_obstacles import place_boxes
 from models.scene import SceneParams
 from models.solids import upright_pose
 from models.staircase import StaircaseParams
-from models.validation import (
-    require_at_least,
-    require_finite,
-    require_one_of,
-    require_positive,
-)
+from models.validation import LARGEST_SEED, Parameters, choice, number, share
 from systems.balance.landing_adaptor import LandingParams
 from systems.balance.stabilizer import StabilizerParams
 from systems.balance.zmp_preview import ZmpPreviewParams
@@ -42,10 +47,13 @@ from systems.planning.path_executive import PathExecutiveParams
 from systems.planning.path_params import PathPlannerParams
 from systems.sensing.depth_camera import DepthCameraParams
 from systems.sensing.tilting_lidar import TiltingLidarParams
+from systems.thinking import ThinkingParams
 from systems.tracking.whole_body_ik import IkParams
 
 ROBOTS: dict[str, RobotModel] = {"jvrc1": JVRC1}
 """The robots that a scenario may name."""
+APPROXIMATIONS = ("lagged", "similar", "sap")
+"""What Drake offers of its contact problem that is convex."""
 
 
 class ScenarioError(ValueError):
@@ -53,36 +61,25 @@ class ScenarioError(ValueError):
 
 
 @dataclass(kw_only=True)
-class RobotParams:
+class RobotParams(Parameters):
     """The robot and where it starts."""
 
-    name: str = "jvrc1"
+    name: str = choice("jvrc1", tuple(ROBOTS))
     """Which robot."""
-    x: float = 0.0
+    x: float = number(0.0, "m")
     """Midpoint of its feet along x of W, m."""
-    y: float = 0.0
+    y: float = number(0.0, "m")
     """Midpoint of its feet along y of W, m."""
-    yaw: float = 0.0
+    yaw: float = number(0.0, "rad")
     """Where it faces, about z of W from its x, rad."""
 
     def model(self) -> RobotModel:
         """The robot's names, sole, postures and gains."""
         return ROBOTS[self.name]
 
-    def validate(self) -> None:
-        """Checks every field.
-
-        Raises:
-            ValueError: "field: reason, got x" for the first field that is wrong.
-        """
-        require_one_of("name", self.name, tuple(ROBOTS))
-        require_finite("x", self.x, "m")
-        require_finite("y", self.y, "m")
-        require_finite("yaw", self.yaw, "rad")
-
 
 @dataclass(kw_only=True)
-class SensorsParams:
+class SensorsParams(Parameters):
     """What the robot senses with."""
 
     camera: DepthCameraParams = field(default_factory=DepthCameraParams)
@@ -92,9 +89,19 @@ class SensorsParams:
 
 
 @dataclass(kw_only=True)
-class ControllerParams:
-    """The parameters of the systems, a field for each of them."""
+class ControllerParams(Parameters):
+    """The parameters of the systems: those that several share, then each one's own."""
 
+    control_period: float = number(0.005, "s", least=1e-4, most=0.1)
+    """Tick of the fast loop, from the sampling of plans to the hold of the torques, s;
+    a multiple of `simulation.time_step`."""
+    friction: float = number(0.6, above=0.0, most=10.0)
+    """mu of the pyramids that planned and commanded contact wrenches are kept in;
+    below the ground's, so that the feet do not slide."""
+    com_height: float = number(0.85, "m", least=0.3, most=3.0)
+    """CoM above the ground at mid-stance, and of the preview's cart, m. Higher
+    stretches the knees, lower loads them: at 0.80 m level walking needs 100 Nm at the
+    knee, at 0.85 m 60 Nm."""
     scan_assembler: ScanAssemblerParams = field(default_factory=ScanAssemblerParams)
     """From scan lines to a cloud."""
     segmenter: PlaneSegmenterParams = field(default_factory=PlaneSegmenterParams)
@@ -104,13 +111,15 @@ class ControllerParams:
     footstep_planner: FootstepPlannerParams = field(
         default_factory=FootstepPlannerParams
     )
-    """Where the feet go; `task.steps_between_scans` takes precedence over its own."""
+    """Where the feet go."""
     motion_planner: MotionPlannerParams = field(default_factory=MotionPlannerParams)
     """When and how they go there."""
     zmp_preview: ZmpPreviewParams = field(
-        default_factory=lambda: ZmpPreviewParams(com_height=0.85)
+        default_factory=lambda: ZmpPreviewParams(preview_time=2.4)
     )
-    """The cart-table's preview control."""
+    """The cart-table's preview control. A plan comes into view all at once, at its
+    start; with Kajita's 1.6 s what is beyond the preview then shifts the ZMP of the
+    CoM's reference by 37 mm for a moment, with 2.4 s by 3 mm."""
     landing: LandingParams = field(default_factory=LandingParams)
     """When a foot counts as landed."""
     stabilizer: StabilizerParams = field(default_factory=StabilizerParams)
@@ -133,32 +142,29 @@ class ControllerParams:
     """From the cloud to what lies in the way."""
     crossing: CrossingParams = field(default_factory=CrossingParams)
     """How that is stepped over."""
+    thinking: ThinkingParams = field(default_factory=ThinkingParams)
+    """How long perception and planning take."""
 
 
 @dataclass(kw_only=True)
-class SimulationParams:
+class SimulationParams(Parameters):
     """How the world is simulated."""
 
-    time_step: float = 0.0025
+    time_step: float = number(0.0025, "s", least=1e-5, most=0.1)
     """Step of the plant, s."""
-    max_time: float = 120.0
+    contact_model: str = choice("hydroelastic", CONTACT_MODELS)
+    """How soles meet the ground: "hydroelastic" (rubber that carries wherever something
+    is under it), or "point" (six small spheres)."""
+    contact_approximation: str = choice("lagged", APPROXIMATIONS)
+    """How Drake solves contact: "lagged", "similar" or "sap"."""
+    max_time: float = number(120.0, "s", above=0.0)
     """When the run is given up, s of simulated time."""
-    seed: int = 0
+    seed: int = number(0, least=0, most=LARGEST_SEED)
     """Seed of everything that is random."""
-
-    def validate(self) -> None:
-        """Checks every field.
-
-        Raises:
-            ValueError: "field: reason, got x" for the first field that is wrong.
-        """
-        require_positive("time_step", self.time_step, "s")
-        require_positive("max_time", self.max_time, "s")
-        require_at_least("seed", self.seed, 0)
 
 
 @dataclass(kw_only=True)
-class Scenario:
+class Scenario(Parameters):
     """A robot, what is around it and what it is to do."""
 
     name: str = ""
@@ -183,12 +189,31 @@ class Scenario:
         lidar = self.sensors.lidar
         return replace(lidar, seed=lidar.seed + self.simulation.seed)
 
+    def controllers(self) -> ControllerParams:
+        """The parameters of the systems, what they share written into each of them.
+
+        What a section itself holds for a number that is shared does not count.
+        """
+        params, lidar = self.parameters, self.sensors.lidar
+        return share(
+            params,
+            {
+                "parameters.control_period": params.control_period,
+                "parameters.friction": params.friction,
+                "parameters.com_height": params.com_height,
+                "sensors.lidar.line_period": lidar.line_period,
+                "task.steps_between_scans": self.task.steps_between_scans,
+            },
+        )
+
     def validate(self) -> None:
-        """Checks what concerns more than one part; each part checks itself.
+        """Checks every part, and what concerns more than one.
 
         Raises:
             ValueError: "field: reason, got x" for the first field that is wrong.
         """
+        super().validate()
+        self._check_shared()
         model, room, stairs = self.robot.model(), self.scene.room, self.scene.staircase
         start = upright_pose(self.robot.x, self.robot.y)
         p_RStart = room.X_WR().inverse().multiply(start).translation()
@@ -197,6 +222,10 @@ class Scenario:
                 "robot: must start inside the room, "
                 f"got x {self.robot.x:g} m, y {self.robot.y:g} m"
             )
+        try:
+            self.parameters.footstep_planner.validate(model.sole)
+        except ValueError as error:
+            raise ValueError(f"parameters.footstep_planner.{error}") from None
         if stairs is not None:
             self._check_width(stairs, model)
         elif self.task.kind == "stair_climbing":
@@ -218,6 +247,29 @@ class Scenario:
                     f"task.pushes[{index}].body: {model.name} has no link "
                     f"{push.body!r}{hint}"
                 )
+
+    def _check_shared(self) -> None:
+        tick, crossing = self.parameters.control_period, self.parameters.crossing
+        for name, value, unit, step in (
+            ("control_period", tick, "simulation.time_step", self.simulation.time_step),
+            ("crossing.sampling", crossing.sampling, "parameters.control_period", tick),
+            (
+                "crossing.quasi_static.sampling",
+                crossing.quasi_static.sampling,
+                "parameters.control_period",
+                tick,
+            ),
+        ):
+            count = round(value / step)
+            if count < 1 or abs(value - count * step) > 1e-9:
+                raise ValueError(
+                    f"parameters.{name}: must be a multiple of {unit}, {step:g} s, "
+                    f"got {value:g} s"
+                )
+        try:
+            self.controllers().validate()
+        except ValueError as error:
+            raise ValueError(f"parameters.{error}") from None
 
     def _check_width(self, stairs: StaircaseParams, model: RobotModel) -> None:
         soles = 4.0 * model.sole.half_width
@@ -288,28 +340,13 @@ def place_clutter(scenario: Scenario) -> Scenario:
 
 def save_scenario(scenario: Scenario, path: str | Path) -> None:
     """Writes the scenario with every field resolved; it loads back equal."""
-    text = yaml_dump_typed(scenario, schema=Scenario)  # type: ignore[no-untyped-call]
+    text = yaml.safe_dump(plain(scenario), sort_keys=False)
     Path(path).write_text(text, encoding="utf-8")
-
-
-def list_scenarios() -> tuple[tuple[str, str], ...]:
-    """Name and description of every shipped scenario, by name."""
-    return tuple((name, load_scenario(name).description) for name in sorted(_shipped()))
-
-
-def _shipped() -> dict[str, str]:
-    """Text of every shipped scenario by name."""
-    folder = resources.files("diagrams.scenarios")
-    return {
-        item.name.removesuffix(".yaml"): item.read_text(encoding="utf-8")
-        for item in folder.iterdir()
-        if item.name.endswith(".yaml")
-    }
 
 
 def _read(name_or_path: str | Path) -> tuple[str, str, str]:
     """What to call the scenario in messages, its name unless it has one, its text."""
-    path, shipped = Path(name_or_path), _shipped()
+    path, shipped = Path(name_or_path), shipped_scenarios()
     if str(name_or_path) in shipped:
         name = str(name_or_path)
         return f"{name}.yaml", name, shipped[name]

@@ -14,6 +14,8 @@ from typing import Any, TypeAlias
 
 import yaml
 
+from models.validation import SHARED, Parameters
+
 Mapping: TypeAlias = dict[str, Any]
 """A mapping as parsed YAML has it; its values are checked against the schema."""
 
@@ -128,41 +130,47 @@ def check(data: object, schema: Any, path: str = "") -> None:
         raise TypeError(f"{path}: a scenario cannot hold a {schema}")
 
 
-def validate(value: Any, path: str = "") -> None:
-    """Calls `validate()` of every dataclass in a value, the innermost first.
+def plain(value: Any) -> Any:
+    """Plain data that `check` accepts, from a dataclass and all that it holds."""
+    if isinstance(value, list):
+        return [plain(item) for item in value]
+    if not dataclasses.is_dataclass(value):
+        return value
+    return {
+        item.name: plain(getattr(value, item.name))
+        for item in dataclasses.fields(value)
+        if not item.metadata.get(SHARED)
+    }
+
+
+def validate(value: Parameters) -> None:
+    """Checks the fields of a value and of all its parts.
 
     Raises:
-        FieldError: one raised ValueError("field: reason, got x"); its path is put
-            before the field.
+        FieldError: one of them is wrong.
     """
-    if isinstance(value, list):
-        for index, item in enumerate(value):
-            validate(item, f"{path}[{index}]")
-    if not dataclasses.is_dataclass(value):
-        return
-    for item in dataclasses.fields(value):
-        validate(getattr(value, item.name), _join(path, item.name))
-    own: Any = getattr(value, "validate", None)
-    if own is None:
-        return
     try:
-        own()
+        value.validate()
     except ValueError as error:
-        name, found, reason = _one_line(error).partition(": ")
-        if not found:
-            raise FieldError(path, name) from None
-        raise FieldError(_join(path, name), reason) from None
+        path, _, reason = _one_line(error).partition(": ")
+        raise FieldError(path, reason) from None
 
 
 def _check_fields(data: object, schema: Any, path: str) -> None:
     if not isinstance(data, dict):
         raise FieldError(path, f"must hold fields, got {_shown(data)}")
-    known = typing.get_type_hints(schema)
+    fields = {item.name: item for item in dataclasses.fields(schema)}
+    one = {name: item.metadata.get(SHARED) for name, item in fields.items()}
+    known = {
+        name: kind
+        for name, kind in typing.get_type_hints(schema).items()
+        if not one[name]
+    }
     for name in data:
         if name not in known:
-            raise FieldError(
-                _join(path, str(name)), f"no such field{_hint(name, known)}"
-            )
+            shared = one.get(name)
+            hint = f"; did you mean {shared}?" if shared else _hint(name, known)
+            raise FieldError(_join(path, str(name)), f"no such field{hint}")
     for name, item in data.items():
         check(item, known[name], _join(path, name))
 

@@ -11,6 +11,9 @@ from time import perf_counter
 import numpy as np
 from matplotlib.figure import Figure
 
+from models.jvrc1 import JVRC1
+from models.robot import Sole
+from systems.perception.cloud_doubts import describe_cloud, doubt_cloud
 from systems.perception.cloud_files import read_cloud
 from systems.perception.normals import gravity_aligned_rotation
 from systems.perception.plane_segmentation import segment_planes
@@ -33,6 +36,8 @@ class SegmentedFile:
     """How many points the cloud has."""
     segmentation: PlaneSegmentation
     """Planes and staircase, in the cloud's frame; with the time of reading first."""
+    doubts: tuple[str, ...]
+    """Of a cloud without planes: what it is like, and what is likely wrong with it."""
     planes_json: Path
     """The planes as JSON."""
     planes_png: Path
@@ -44,6 +49,7 @@ def segment_file(
     gravity: Vector,
     out: Path,
     params: PlaneSegmenterParams | None = None,
+    sole: Sole = JVRC1.sole,
 ) -> SegmentedFile:
     """Segments the cloud in a file and writes `planes.json` and `planes.png`.
 
@@ -54,6 +60,7 @@ def segment_file(
         gravity: gravity in the cloud's frame, (3,), any length: it points down.
         out: folder to write to; it is made where it is missing.
         params: parameters; None for the paper's.
+        sole: of the robot; what is smaller is no plane to stand on.
 
     Raises:
         CloudFileError: the file is no cloud.
@@ -66,7 +73,7 @@ def segment_file(
     start = perf_counter()
     points = read_cloud(cloud)
     read = ("read", (perf_counter() - start) * 1e3)
-    found, _ = segment_planes(points, gravity, params)
+    found, _ = segment_planes(points, gravity, params, sole)
     segmentation = PlaneSegmentation(
         planes=found.planes,
         staircase=found.staircase,
@@ -76,6 +83,7 @@ def segment_file(
     result = SegmentedFile(
         points=len(points),
         segmentation=segmentation,
+        doubts=() if segmentation.planes else _doubts(points, gravity, params, sole),
         planes_json=out / "planes.json",
         planes_png=out / "planes.png",
     )
@@ -86,23 +94,29 @@ def segment_file(
     _write_atomically(
         result.planes_json,
         lambda path: path.write_text(
-            json.dumps(_document(cloud, gravity, len(points), segmentation), indent=1)
-            + "\n",
+            json.dumps(_document(cloud, gravity, result), indent=1) + "\n",
             encoding="utf-8",
         ),
     )
     return result
 
 
-def _document(
-    cloud: Path, gravity: Vector, points: int, segmentation: PlaneSegmentation
-) -> dict[str, object]:
+def _doubts(
+    points: Vector, gravity: Vector, params: PlaneSegmenterParams, sole: Sole
+) -> tuple[str, ...]:
+    likely = doubt_cloud(points, gravity, params, params.min_voxels(sole))
+    return (describe_cloud(points), *likely)
+
+
+def _document(cloud: Path, gravity: Vector, result: SegmentedFile) -> dict[str, object]:
+    segmentation = result.segmentation
     return {
         "cloud": cloud.name,
-        "points": points,
+        "points": result.points,
         "gravity": to_json(np.asarray(gravity, dtype=np.float64)),
         "planes": to_json(segmentation.planes),
         "staircase": to_json(segmentation.staircase),
+        "doubts": list(result.doubts),
         "times_ms": {stage: round(ms, 3) for stage, ms in segmentation.times_ms},
     }
 

@@ -1,9 +1,8 @@
 """The headless runner: simulates a task, judges it and writes the run folder."""
 
-import os
-import shutil
 import traceback
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from time import perf_counter
@@ -14,10 +13,13 @@ from pydrake.systems.framework import Context
 
 from diagrams.crossing_judge import eyes_summary
 from diagrams.evidence import Evidence, Stop, gather
-from diagrams.outcome import judge
+from diagrams.outcome import Judgement, Outcome, judge
 from diagrams.room_summary import room_perception, stage_ms
-from diagrams.scenario import Scenario, save_scenario
-from diagrams.signals import SCENARIO_FILE, SIGNALS_FOLDER, SUMMARY_FILE
+from diagrams.run_folder import RecordingError, begin_run
+from diagrams.scenario import Scenario
+from diagrams.signal_files import whole_file
+from diagrams.signal_recorder import SignalStream
+from diagrams.signals import SIGNALS_FOLDER, SUMMARY_FILE
 from diagrams.summary import (
     Summary,
     installed_versions,
@@ -40,6 +42,9 @@ FALL_WATCH = 3.0
 """For how long a robot that falls is watched at the most, until it lies, s."""
 SLICE = 0.05
 """How long the simulation runs between two looks at how it goes, s."""
+FLUSH_PERIOD = 0.5
+"""How often the signals go to disk, s of simulated time; the most that a run which is
+killed loses, but for a `SLICE`."""
 TRACEBACK_FILE = "traceback.txt"
 Progress: TypeAlias = Callable[[float, str], None]
 """Is told the simulated time, s, and what the executive is doing."""
@@ -57,6 +62,9 @@ class Simulated:
     """s."""
     error: BaseException | None = None
     """What was raised, where something was."""
+    stream: SignalStream | None = None
+    """Where the signals went, but for what was logged since the last flush; None where
+    they are in memory."""
 
 
 def run_task(
@@ -65,10 +73,12 @@ def run_task(
     folder: Path,
     progress: Progress | None = None,
     realtime_rate: float = 0.0,
+    while_judging: Callable[[], AbstractContextManager[object]] = nullcontext,
 ) -> Summary:
     """Simulates a task and writes its run folder, however the simulation stops.
 
-    The folder appears in one piece: it is written beside its place and then renamed.
+    The signals go to disk while it runs: of a run that is killed `load_run` opens what
+    was written until then.
 
     Args:
         task: the closed loop.
@@ -77,29 +87,36 @@ def run_task(
         progress: is called every `SLICE` of simulated time.
         realtime_rate: upper bound of simulated over wall time; 0 runs as fast as it
             can.
+        while_judging: held from the end of the simulation until the folder is whole;
+            where Ctrl-C must not break that off it can put it off.
 
     Raises:
         FileExistsError: the folder exists and is not empty.
+        OSError: the folder cannot be made.
+        RecordingError: it cannot be written to any more.
     """
-    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
-        raise FileExistsError(f"{folder}: exists and is not empty")
-    folder.parent.mkdir(parents=True, exist_ok=True)
-    partial = folder.with_name(f".{folder.name}.partial-{os.getpid()}")
-    partial.mkdir()
-    try:
-        save_scenario(scenario, partial / SCENARIO_FILE)
-        simulated = simulate(
-            task, scenario.simulation.max_time, progress, realtime_rate
-        )
-        task.signals.write(simulated.context, partial / SIGNALS_FOLDER)
+    begin_run(folder, scenario)
+    simulated = simulate(
+        task,
+        scenario.simulation.max_time,
+        progress,
+        realtime_rate,
+        folder / SIGNALS_FOLDER,
+    )
+    assert simulated.stream is not None
+    with while_judging():
+        end = simulated.context.get_time()
+        with _recorded(folder, end):
+            simulated.stream.flush()
         summary = summarize(task, scenario, simulated)
-        summary.write(partial / SUMMARY_FILE)
-        if simulated.error is not None:
-            text = "".join(traceback.format_exception(simulated.error))
-            (partial / TRACEBACK_FILE).write_text(text, encoding="utf-8")
-        partial.replace(folder)
-    finally:
-        shutil.rmtree(partial, ignore_errors=True)
+        with _recorded(folder, end):
+            with whole_file(folder / SUMMARY_FILE) as path:
+                summary.write(path)
+            if isinstance(simulated.error, Exception):
+                text = "".join(traceback.format_exception(simulated.error))
+                with whole_file(folder / TRACEBACK_FILE) as path:
+                    path.write_text(text, encoding="utf-8")
+            simulated.stream.finish()
     return summary
 
 
@@ -108,6 +125,7 @@ def simulate(
     max_time: float,
     progress: Progress | None = None,
     realtime_rate: float = 0.0,
+    signals_folder: Path | None = None,
 ) -> Simulated:
     """Simulates until the task is over, the robot fell, time is up or Ctrl-C.
 
@@ -117,26 +135,44 @@ def simulate(
 
     An exception, of the contact solver or of a System, ends the simulation like a
     fall does; what was logged until then is kept.
+
+    Args:
+        task: the closed loop.
+        max_time: when it is given up, s of simulated time.
+        progress: is called every `SLICE` of simulated time.
+        realtime_rate: upper bound of simulated over wall time; 0 runs as fast as it
+            can.
+        signals_folder: where the signals go every `FLUSH_PERIOD`; None keeps them in
+            memory.
+
+    Raises:
+        RecordingError: that folder cannot be written to any more.
     """
     simulator = Simulator(task.diagram)
     simulator.set_target_realtime_rate(realtime_rate)
     context = simulator.get_mutable_context()
+    stream = task.signals.stream(context, signals_folder) if signals_folder else None
     watch = RobotWatch(task, context)
     end, finished, fell = max_time, False, False
     resting, lying = HoldClock(WATCHED_REST), HoldClock(LIE_TIME)
     stop: Stop = "time limit"
     reason = f"not done after {max_time:g} s"
     error: BaseException | None = None
-    start = perf_counter()
+    start, slices, flushed = perf_counter(), 0, 0.0
     try:
         simulator.Initialize()
         while context.get_time() < end - 1e-9:
-            until = min(context.get_time() + SLICE, end)
+            slices += 1
+            until = min(slices * SLICE, end)
             if finished and not fell:
                 _advance_to_rest(simulator, until, watch, resting)
             else:
                 simulator.AdvanceTo(until)
             now, status = context.get_time(), task.task_status(context)
+            if stream and now > flushed + FLUSH_PERIOD - 1e-9:
+                flushed = now
+                with _recorded(stream.folder.parent, flushed):
+                    stream.flush()
             if progress is not None:
                 progress(now, status.activity)
             if fell:
@@ -155,6 +191,8 @@ def simulate(
             elif status.state == "finished":
                 finished, end = True, now + REST_WATCH
                 stop, reason = "finished", status.reason
+    except RecordingError:
+        raise
     except KeyboardInterrupt as interrupt:
         stop, reason = "interrupted", f"interrupted at {context.get_time():.2f} s"
         error = interrupt
@@ -163,7 +201,19 @@ def simulate(
         message = (str(exception).splitlines() or [""])[0]
         what = f"{type(exception).__name__}: {message}"
         reason = f"the simulation broke off at {context.get_time():.2f} s: {what}"
-    return Simulated(context, stop, reason, perf_counter() - start, error)
+    return Simulated(context, stop, reason, perf_counter() - start, error, stream)
+
+
+@contextmanager
+def _recorded(folder: Path, time: float) -> Iterator[None]:
+    """Says of a folder that cannot be written to which it is, and what became of it."""
+    try:
+        yield
+    except OSError as error:
+        raise RecordingError(
+            f"{folder}: cannot be written to at {time:.2f} s of the run: "
+            f"{error.strerror or error}; what was written until then is kept"
+        ) from error
 
 
 def _advance_to_rest(
@@ -177,17 +227,28 @@ def _advance_to_rest(
 
 
 def summarize(task: TaskDiagram, scenario: Scenario, simulated: Simulated) -> Summary:
-    """Judges a simulation that has stopped and gathers what its summary says."""
-    evidence = gather(task, simulated.context, simulated.stop, simulated.reason)
+    """Judges a simulation that has stopped and gathers what its summary says.
+
+    One that stopped before anything was logged cannot be judged; its figures are null.
+    """
+    frames = task.signals.frames(simulated.context)
+    if any(len(frame) for frame in frames.values()):
+        evidence = gather(task, simulated.context, simulated.stop, simulated.reason)
+        judgement, perception = judge(evidence), _perception(task, evidence)
+    else:
+        interrupted = simulated.stop == "interrupted"
+        outcome: Outcome = "interrupted" if interrupted else "cut"
+        judgement = Judgement(outcome=outcome, reason=simulated.reason)
+        perception = None
     simulated_time = simulated.context.get_time()
     return Summary(
-        **asdict(judge(evidence)),
+        **asdict(judgement),
         scenario=scenario.name,
         seed=scenario.simulation.seed,
         simulated_time_s=simulated_time,
         wall_time_s=simulated.wall_time,
         real_time_factor=simulated_time / simulated.wall_time or None,
-        perception=_perception(task, evidence),
+        perception=perception,
         timing_us=timing_us(task.diagram),
         versions=installed_versions(),
     )

@@ -1,7 +1,5 @@
 """Climb a staircase that the robot has scanned (stair paper, closed loop)."""
 
-import dataclasses
-
 import numpy as np
 from pydrake.geometry import Meshcat
 from pydrake.systems.framework import DiagramBuilder
@@ -14,6 +12,7 @@ from diagrams.walking import add_walking, initial_stand
 from diagrams.walking_signals import VALUE_PERIOD, record_walking
 from diagrams.wiring import add_system
 from models.collision_hulls import collision_hulls
+from models.self_distance import SelfDistanceMeter
 from systems.perception.plane_segmenter import PlaneSegmenter
 from systems.perception.staircase_map import StaircaseMap
 from systems.planning.executive import Executive
@@ -36,14 +35,16 @@ def build_stair_climbing(
     Returns:
         The diagram, its default context where the robot starts.
     """
-    params = scenario.parameters
+    params = scenario.controllers()
     robot = ROBOTS[scenario.robot.name]
     builder = DiagramBuilder()
 
-    station = add_station(builder, scenario, robot, params.ik.period)
+    station = add_station(builder, scenario, robot, params.control_period)
     lidar, assembler = add_lidar(builder, scenario, station)
 
-    segmenter = add_system(builder, "plane_segmenter", PlaneSegmenter(params.segmenter))
+    segmenter = add_system(
+        builder, "plane_segmenter", PlaneSegmenter(robot.sole, params.segmenter)
+    )
     down: Vector = np.array([0.0, 0.0, -1.0])
     gravity = add_system(builder, "gravity", ConstantVectorSource(down))
     builder.Connect(assembler.GetOutputPort("cloud"), segmenter.GetInputPort("cloud"))
@@ -52,7 +53,11 @@ def build_stair_climbing(
         lidar.GetOutputPort("viewpoint"), segmenter.GetInputPort("viewpoint")
     )
 
-    staircase = add_system(builder, "staircase_map", StaircaseMap(params.staircase_map))
+    staircase = add_system(
+        builder,
+        "staircase_map",
+        StaircaseMap(params.staircase_map, params.thinking.segmentation),
+    )
     builder.Connect(
         segmenter.GetOutputPort("segmentation"), staircase.GetInputPort("segmentation")
     )
@@ -61,13 +66,7 @@ def build_stair_climbing(
     footsteps = add_system(
         builder,
         "footstep_planner",
-        FootstepPlanner(
-            dataclasses.replace(
-                params.footstep_planner,
-                steps_between_scans=scenario.task.steps_between_scans,
-            ),
-            robot.sole,
-        ),
+        FootstepPlanner(params.footstep_planner, robot.sole),
     )
     ik = WholeBodyIk(station.model, robot, params.ik)
     motion = add_system(
@@ -84,6 +83,7 @@ def build_stair_climbing(
                 ik,
                 params.stabilizer.distribution,
                 collision_hulls(robot),
+                SelfDistanceMeter(robot),
             ),
         ),
     )
@@ -98,7 +98,15 @@ def build_stair_climbing(
 
     stand = initial_stand(scenario, station)
     executive = add_system(
-        builder, "executive", Executive(params.executive, stand.plan)
+        builder,
+        "executive",
+        Executive(
+            params.executive,
+            stand.plan,
+            params.thinking.quasi_static_climb_planning
+            if scenario.task.mode == "quasi_static"
+            else params.thinking.climb_planning,
+        ),
     )
     builder.Connect(staircase.GetOutputPort("sweep"), executive.GetInputPort("sweep"))
     builder.Connect(executive.GetOutputPort("scan"), lidar.GetInputPort("enable"))

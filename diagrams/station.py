@@ -2,6 +2,7 @@
 
 import dataclasses
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
 from pydrake.geometry import SceneGraph
@@ -17,9 +18,10 @@ from pydrake.systems.primitives import ZeroOrderHold
 
 from diagrams.scenario import Scenario
 from diagrams.wiring import add_system
+from models.contact_geometry import ContactModel, is_sole
 from models.mover import add_movers
 from models.robot import RobotModel
-from models.robot_loader import add_robot, body_meshes, is_sole
+from models.robot_loader import add_robot, body_meshes
 from models.solid_names import is_ground
 from models.solids import add_solids, triangle_mesh
 from systems.disturbance.box_mover import BoxMotion, BoxMover
@@ -35,6 +37,13 @@ from systems.sensing.speed_monitor import SpeedMonitor
 from systems.sensing.tilting_lidar import TiltingLidar
 from systems.sensing.wanted_torque import WantedTorque
 from systems.values import FEET
+
+DRAKE_CONTACT_MODELS = {
+    "hydroelastic": "hydroelastic_with_fallback",
+    "point": "point",
+}
+"""What Drake calls the contact models; bodies that are no soles meet in points in both.
+"""
 
 
 @dataclass(frozen=True)
@@ -97,15 +106,17 @@ def add_station(
     Returns:
         What the rest of a diagram connects to.
     """
+    simulation = scenario.simulation
     config = MultibodyPlantConfig(
-        time_step=scenario.simulation.time_step,
-        contact_model="point",
-        discrete_contact_approximation="lagged",
+        time_step=simulation.time_step,
+        contact_model=DRAKE_CONTACT_MODELS[simulation.contact_model],
+        discrete_contact_approximation=simulation.contact_approximation,
     )
     plant, scene_graph = AddMultibodyPlant(config, builder)
     plant.set_name("plant")
     scene_graph.set_name("scene_graph")
-    instance = add_robot(plant, scene_graph, robot)
+    contact_model = cast(ContactModel, simulation.contact_model)
+    instance = add_robot(plant, scene_graph, robot, contact_model)
     add_solids(plant, scenario.scene.solids())
     movers = add_movers(plant, scenario.scene.movers)
     plant.Finalize()
@@ -240,7 +251,7 @@ def add_lidar(
         builder,
         "scan_assembler",
         ScanAssembler(
-            scenario.parameters.scan_assembler,
+            scenario.controllers().scan_assembler,
             beam_angles=params.angles(),
             mount_body=int(head),
             X_BM=X_HM,

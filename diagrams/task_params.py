@@ -3,13 +3,7 @@
 from dataclasses import dataclass, field
 
 from models.jvrc1 import JVRC1
-from models.validation import (
-    require_at_least,
-    require_finite,
-    require_length,
-    require_one_of,
-    require_positive,
-)
+from models.validation import LARGEST, Parameters, choice, number
 
 TASKS = ("stair_climbing", "room_crossing", "obstacle_crossing")
 """What a robot may be asked to do."""
@@ -18,42 +12,42 @@ MODES = ("dynamic", "quasi_static")
 
 
 @dataclass(kw_only=True)
-class PushParams:
+class PushParams(Parameters):
     """A push to withstand: a constant force at a body's centre of mass."""
 
-    time: float = 5.0
+    time: float = number(5.0, "s", least=0.0)
     """When it begins, s."""
-    duration: float = 0.1
+    duration: float = number(0.1, "s", above=0.0)
     """How long it lasts, s."""
-    force: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
+    force: list[float] = number([0.0, 0.0, 0.0], "N", length=3)
     """The force, along W's axes, N."""
     body: str = JVRC1.torso_body
     """The link of the robot that is pushed."""
 
     def validate(self) -> None:
-        """Checks every field.
+        """Checks every field, and those that concern each other.
 
         Raises:
             ValueError: "field: reason, got x" for the first field that is wrong.
         """
-        require_at_least("time", self.time, 0.0, "s")
-        require_positive("duration", self.duration, "s")
-        require_length("force", self.force, 3)
+        super().validate()
+        if not any(self.force):
+            raise ValueError(f"force: must not be zero, got {self.force} N")
 
 
 @dataclass(kw_only=True)
-class TaskParams:
+class TaskParams(Parameters):
     """What the robot is to do."""
 
-    kind: str = "stair_climbing"
+    kind: str = choice("stair_climbing", TASKS)
     """What: "stair_climbing", up the staircase to its top tread; "room_crossing", over
     the floor to `goal`; "obstacle_crossing", the same over what lies in the way."""
-    mode: str = "dynamic"
+    mode: str = choice("dynamic", MODES)
     """How: "dynamic", with a moving ZMP under a stabiliser; "quasi_static", so slowly
     that the ZMP stays near a CoM that is always over the stance; not in a room."""
-    steps_between_scans: int = 2
+    steps_between_scans: int = number(2, least=1, most=1000)
     """How many treads are climbed before the robot stands and scans again."""
-    goal: list[float] = field(default_factory=lambda: [2.5, 0.0, 0.0])
+    goal: list[float] = number([2.5, 0.0, 0.0], "m", length=3)
     """Where the midpoint of the feet is to come to and the heading there, in W, x, y,
     yaw, m and rad; not in "stair_climbing"."""
     environment: str | None = None
@@ -64,14 +58,13 @@ class TaskParams:
     """Pushes on the way."""
 
     def validate(self) -> None:
-        """Checks every field.
+        """Checks every field, and the heading of the goal.
 
         Raises:
             ValueError: "field: reason, got x" for the first field that is wrong.
         """
-        require_one_of("kind", self.kind, TASKS)
-        require_one_of("mode", self.mode, MODES)
-        require_at_least("steps_between_scans", self.steps_between_scans, 1)
-        require_length("goal", self.goal, 3)
-        for index, value in enumerate(self.goal):
-            require_finite(f"goal[{index}]", value)
+        super().validate()
+        if abs(self.goal[2]) > LARGEST["rad"]:
+            raise ValueError(
+                f"goal[2]: must be at most a turn, got {self.goal[2]:g} rad"
+            )

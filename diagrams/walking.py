@@ -61,16 +61,16 @@ class Walking:
 
 def initial_stand(scenario: Scenario, station: Station) -> Stand:
     """Both feet side by side under the start pose, knees bent."""
-    start = scenario.robot
+    start, params = scenario.robot, scenario.controllers()
     model, robot = station.model, station.robot
     turn: Vector = RotationMatrix.MakeZRotation(start.yaw).matrix()
     origin = np.array([start.x, start.y, 0.0])
-    half = 0.5 * scenario.parameters.footstep_planner.stance_width
+    half = 0.5 * params.footstep_planner.stance_width
     feet: Vector = np.zeros((2, 6))
     for foot, side in zip(feet, (half, -half), strict=True):
         foot[:3] = origin + turn @ np.array([0.0, side, 0.0])
         foot[5] = start.yaw
-    planner = scenario.parameters.motion_planner
+    planner = params.motion_planner
     com: Vector = origin + turn @ np.array([planner.zmp_forward, 0.0, 0.0])
     com[2] = planner.com_height
     nothing: Vector = np.zeros(3)
@@ -85,9 +85,8 @@ def initial_stand(scenario: Scenario, station: Station) -> Stand:
         waist_rate=nothing,
     )
     nowhere: Vector = np.zeros((0, 3))
-    preview = scenario.parameters.zmp_preview
-    plan = plan_motion(feet, com, (), nowhere, planner, preview, robot)
-    ik = WholeBodyIk(model, robot, scenario.parameters.ik)
+    plan = plan_motion(feet, com, (), nowhere, planner, params.zmp_preview, robot)
+    ik = WholeBodyIk(model, robot, params.ik)
     return Stand(feet, com, solve_posture(ik, model, target), plan)
 
 
@@ -113,7 +112,7 @@ def add_walking(
     Returns:
         The controllers, wired to the station.
     """
-    params = scenario.parameters
+    params = scenario.controllers()
     model, robot = station.model, station.robot
 
     preview = add_system(
@@ -215,7 +214,7 @@ def add_walking(
             sole.heel,
             sole.toe,
             sole.half_width,
-            params.stabilizer.distribution.friction,
+            params.friction,
         ),
     )
     for source, port, target in (

@@ -139,6 +139,7 @@ def record_walking(
         "static_stability.polygon",
         walking.stability.GetOutputPort("polygon"),
         VALUE_PERIOD,
+        keep=False,
     )
     for port in ("status", "footstep_plan"):
         recorder.add_value(

@@ -11,7 +11,7 @@ from diagrams.ground import end_ground
 from diagrams.rest import REST_TIME, at_rest, rest_figures
 from diagrams.task_diagram import TaskDiagram
 from diagrams.true_motion import TrueMotion, true_motion
-from models.robot_loader import is_sole
+from models.contact_geometry import is_sole
 from models.solid_names import is_ground
 from systems.ports import Vector
 from systems.sensing.robot_contacts import (

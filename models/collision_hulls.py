@@ -2,8 +2,6 @@
 
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
-from pathlib import Path
-from urllib.parse import unquote, urlparse
 
 import numpy as np
 import trimesh
@@ -23,18 +21,21 @@ class CollisionHull:
 
 
 def collision_hulls(robot: RobotModel) -> tuple[CollisionHull, ...]:
-    """The hull of every body that has one, as the plant gets it.
+    """The hull of every body that collides, around all its pieces.
 
-    The soles' contact spheres are not among them: a foot's hull ends a little above
-    its sole.
+    The soles' rubber is not part of it: a foot's hull ends a little above its sole.
     """
     hulls = []
     for link in ET.fromstring(prepared_urdf(robot)).findall("link"):
-        mesh = link.find("collision/geometry/mesh")
-        if mesh is None:
-            continue
-        path = Path(unquote(urlparse(mesh.attrib["filename"]).path))
-        hull = trimesh.load_mesh(path)
-        vertices = np.unique(np.asarray(hull.vertices, dtype=np.float64), axis=0)
-        hulls.append(CollisionHull(link.attrib["name"], vertices))
+        pieces = [
+            np.asarray(trimesh.load_mesh(_path(mesh)).vertices, dtype=np.float64)
+            for mesh in link.findall("collision/geometry/mesh")
+        ]
+        if pieces:
+            vertices = np.unique(np.vstack(pieces), axis=0)
+            hulls.append(CollisionHull(link.attrib["name"], vertices))
     return tuple(hulls)
+
+
+def _path(mesh: ET.Element) -> str:
+    return mesh.attrib["filename"].removeprefix("file://")

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from pydrake.geometry import Box as BoxShape
 from pydrake.math import RigidTransform, RollPitchYaw
-from pydrake.multibody.plant import CoulombFriction, MultibodyPlant
+from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import (
     ModelInstanceIndex,
     PdControllerGains,
@@ -14,9 +14,10 @@ from pydrake.multibody.tree import (
     SpatialInertia,
 )
 
+from models.contact_geometry import surface_properties
 from models.obstacle import COLOR, BoxParams
 from models.solid_names import BOX
-from models.validation import require_at_least, require_finite, require_positive
+from models.validation import number
 from systems.ports import Vector
 
 MASS = 30.0
@@ -29,26 +30,14 @@ GAINS = PdControllerGains(p=2e5, d=1e4)
 class MoverParams(BoxParams):
     """An upright box that stands at first and is moved once."""
 
-    time: float = 6.0
+    time: float = number(6.0, "s", least=0.0)
     """When it begins to move, s."""
-    duration: float = 1.0
+    duration: float = number(1.0, "s", least=0.05)
     """How long it takes, s."""
-    to_x: float = 0.0
+    to_x: float = number(0.0, "m")
     """Where its centre comes to along x of W, m."""
-    to_y: float = 0.0
+    to_y: float = number(0.0, "m")
     """Where its centre comes to along y of W, m."""
-
-    def validate(self) -> None:
-        """Checks every field.
-
-        Raises:
-            ValueError: "field: reason, got x" for the first field that is wrong.
-        """
-        super().validate()
-        require_at_least("time", self.time, 0.0, "s")
-        require_positive("duration", self.duration, "s")
-        require_finite("to_x", self.to_x, "m")
-        require_finite("to_y", self.to_y, "m")
 
 
 def add_movers(
@@ -95,9 +84,9 @@ def add_movers(
         # A hair above the floor, on which it would else rub.
         p_BG[2] += 1e-3
         X_BG = RigidTransform(RollPitchYaw(0.0, 0.0, mover.yaw), p_BG)
-        friction = CoulombFriction(mover.friction, mover.friction)
+        surface = surface_properties(mover.friction)
         name = f"{BOX}{mover.name}"
         color: Vector = np.array(COLOR)
-        plant.RegisterCollisionGeometry(body, X_BG, BoxShape(*size), name, friction)
+        plant.RegisterCollisionGeometry(body, X_BG, BoxShape(*size), name, surface)
         plant.RegisterVisualGeometry(body, X_BG, BoxShape(*size), name, color)
     return instance

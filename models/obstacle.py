@@ -1,50 +1,45 @@
 """A box that stands in the way: an obstacle to step over, or clutter to walk round."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
+from models.contact_geometry import GREATEST_FRICTION
 from models.solid_names import BOX
 from models.solids import Box, Rgba, upright_pose
-from models.validation import require_finite, require_length, require_positive
+from models.validation import Parameters, number
 
 COLOR: Rgba = (0.75, 0.30, 0.25, 1.0)
 
 
 @dataclass(kw_only=True)
-class BoxParams:
+class BoxParams(Parameters):
     """An upright box."""
 
     name: str = "box"
     """What it is called in contacts and messages, unique in its scene."""
-    x: float = 0.6
+    x: float = number(0.6, "m")
     """Centre along x of W, m."""
-    y: float = 0.0
+    y: float = number(0.0, "m")
     """Centre along y of W, m."""
-    z: float = 0.0
+    z: float = number(0.0, "m")
     """Height of its lower face above the floor, m."""
-    yaw: float = 0.0
+    yaw: float = number(0.0, "rad")
     """Direction of the box's x, about z of W, rad."""
-    size: list[float] = field(default_factory=lambda: [0.05, 1.0, 0.15])
+    size: list[float] = number([0.05, 1.0, 0.15], "m", above=0.0, length=3)
     """Side lengths along its x, y and z, m (obstacle paper: 5 cm thick, 15 cm high)."""
-    friction: float = 0.8
-    """Coulomb friction coefficient of its surface."""
+    friction: float = number(0.8, above=0.0, below=GREATEST_FRICTION)
+    """Coulomb friction coefficient between its surface and a sole."""
 
     def validate(self) -> None:
-        """Checks every field.
+        """Checks every field, and those that concern each other.
 
         Raises:
             ValueError: "field: reason, got x" for the first field that is wrong.
         """
+        super().validate()
         if not self.name:
             raise ValueError("name: must not be empty")
-        for item in ("x", "y", "z"):
-            require_finite(item, getattr(self, item), "m")
-        require_finite("yaw", self.yaw, "rad")
-        require_length("size", self.size, 3)
-        for index, length in enumerate(self.size):
-            require_positive(f"size[{index}]", length, "m")
-        require_positive("friction", self.friction)
 
     def solid(self) -> Box:
         """The box, named "box/" and its name.

@@ -29,6 +29,11 @@ class Sole:
         """Heel edge to toe edge, m."""
         return self.heel + self.toe
 
+    @property
+    def area(self) -> float:
+        """m^2."""
+        return 2.0 * self.half_width * self.length
+
 
 @dataclass(frozen=True)
 class JointGains:
@@ -78,5 +83,8 @@ class RobotModel:
     """CoM ahead of the ankles and above the soles when standing ready to walk, m."""
     hip_from_com: tuple[float, float]
     """About how far the hips are ahead of the CoM and above it when leaning, m."""
+    convex_pieces: Mapping[str, int]
+    """Into how many convex pieces the surface of a body is cut to collide with, where
+    it is too hollow for its one convex hull."""
     leg_reach: float
     """Greatest distance from hip to ankle with the knee still bent, m."""

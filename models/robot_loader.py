@@ -9,33 +9,29 @@ actuator with the URDF's effort limit and a servo.
 
 import hashlib
 import json
-import os
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import trimesh
 from platformdirs import user_cache_path
-from pydrake.geometry import (
-    CollisionFilterDeclaration,
-    GeometrySet,
-    ProximityProperties,
-    SceneGraph,
-    Sphere,
-)
+from pydrake.geometry import SceneGraph
 from pydrake.math import RigidTransform, RollPitchYaw
 from pydrake.multibody.parsing import Parser
-from pydrake.multibody.plant import CoulombFriction, MultibodyPlant
+from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import JointActuator, ModelInstanceIndex, PdControllerGains
 from trimesh.exchange.gltf import export_gltf
 
+from models.contact_geometry import SOLE_THICKNESS, ContactModel, add_soles
+from models.mesh_cache import cached_files
 from models.robot import RobotModel
+from models.self_collision import filter_neighbours
 from systems.ports import Vector
-from systems.values import FEET
 
-CACHE_VERSION = "3"
+CACHE_VERSION = "4"
 _Z_UP_TO_Y_UP = np.array(
     [
         [1.0, 0.0, 0.0, 0.0],
@@ -45,13 +41,11 @@ _Z_UP_TO_Y_UP = np.array(
     ]
 )
 """glTF's y points up; readers turn it back."""
-SOLE_PREFIX = "sole"
-"""What the names of the sole's contact geometries begin with."""
-SPHERE_RADIUS = 0.005
-"""Radius of the spheres a sole touches the ground with, m."""
-SOLE_CLEARANCE = 0.012
+SOLE_CLEARANCE = SOLE_THICKNESS + 0.002
 """The foot's hull is cut off this far above the sole, m, so that the sole alone meets
 the ground it stands on."""
+VOXELS = 400_000
+"""With so many a concave surface is cut into convex pieces."""
 
 
 @dataclass(frozen=True)
@@ -96,7 +90,10 @@ def body_meshes(robot: RobotModel) -> tuple[BodyMesh, ...]:
 
 
 def add_robot(
-    plant: MultibodyPlant, scene_graph: SceneGraph, robot: RobotModel
+    plant: MultibodyPlant,
+    scene_graph: SceneGraph,
+    robot: RobotModel,
+    contact_model: ContactModel = "hydroelastic",
 ) -> ModelInstanceIndex:
     """Adds the robot with a floating base, actuators, servos and contact geometry.
 
@@ -104,6 +101,7 @@ def add_robot(
         plant: not finalised yet.
         scene_graph: the one that the plant is registered with.
         robot: which robot.
+        contact_model: of the plant; it decides what the soles are made of.
 
     Returns:
         Its model instance.
@@ -124,15 +122,8 @@ def add_robot(
         actuator.set_controller_gains(
             PdControllerGains(p=gains.stiffness, d=gains.damping)
         )
-    _add_soles(plant, instance, robot)
-    ids = [
-        geometry
-        for body in plant.GetBodyIndices(instance)
-        for geometry in plant.GetCollisionGeometriesForBody(plant.get_body(body))
-    ]
-    scene_graph.collision_filter_manager().Apply(
-        CollisionFilterDeclaration().ExcludeWithin(GeometrySet(ids))
-    )
+    add_soles(plant, instance, robot, contact_model)
+    filter_neighbours(plant, scene_graph, instance)
     return instance
 
 
@@ -158,19 +149,28 @@ def prepared_urdf(robot: RobotModel) -> str:
     folder = _cache_folder(robot)
     for link, visual in _visuals(root):
         name = link.attrib["name"]
-        visual_file, hull_file = folder / f"{name}.gltf", folder / f"{name}.obj"
-        if not (visual_file.exists() and hull_file.exists()):
-            _convert(robot, name, visual, visual_file, hull_file)
-        _mesh(visual).set("filename", visual_file.as_uri())
+        pieces = range(robot.convex_pieces.get(name, 1))
+        visual_file, *hull_files = cached_files(
+            folder,
+            (f"{name}.gltf", *(f"{name}_{piece}.obj" for piece in pieces)),
+            partial(_convert, robot, name, visual),
+        )
+        _mesh(visual).set("filename", _uri(visual_file))
         collision = link.find("collision")
         if collision is not None:
             link.remove(collision)
-        collision = ET.SubElement(link, "collision", {"name": f"{name}_hull"})
-        geometry = ET.SubElement(collision, "geometry")
-        hull = ET.SubElement(geometry, "mesh", {"filename": hull_file.as_uri()})
-        ET.SubElement(hull, "drake:declare_convex")
+        for file in hull_files:
+            collision = ET.SubElement(link, "collision", {"name": f"{file.stem}_hull"})
+            geometry = ET.SubElement(collision, "geometry")
+            hull = ET.SubElement(geometry, "mesh", {"filename": _uri(file)})
+            ET.SubElement(hull, "drake:declare_convex")
     root.set("xmlns:drake", "http://drake.mit.edu")
     return ET.tostring(root, encoding="unicode")
+
+
+def _uri(path: Path) -> str:
+    """As Drake reads it: `Path.as_uri` writes %20 for a blank, which stays a %20."""
+    return f"file://{path}"
 
 
 def _visuals(root: ET.Element) -> Iterator[tuple[ET.Element, ET.Element]]:
@@ -211,26 +211,36 @@ def _origin(visual: ET.Element) -> Vector:
 
 def _cache_folder(robot: RobotModel) -> Path:
     digest = hashlib.sha256(robot.urdf.read_bytes()).hexdigest()[:12]
-    folder = user_cache_path("footfall") / f"{robot.name}-{CACHE_VERSION}-{digest}"
-    folder.mkdir(parents=True, exist_ok=True)
-    return folder
+    return user_cache_path("footfall") / f"{robot.name}-{CACHE_VERSION}-{digest}"
 
 
-def _convert(
-    robot: RobotModel, name: str, visual: ET.Element, visual_file: Path, hull_file: Path
-) -> None:
+def _convert(robot: RobotModel, name: str, visual: ET.Element) -> list[bytes]:
+    """The mesh of a body as glTF to be seen, and its convex pieces as OBJ to be met."""
     scene = trimesh.load_scene(_source(robot, visual))
     scene.apply_transform(_Z_UP_TO_Y_UP)  # type: ignore[no-untyped-call]
     files = export_gltf(scene, embed_buffers=True)  # type: ignore[no-untyped-call]
-    _write_atomically(visual_file, _opaque(files["model.gltf"]))
     mesh = _load(robot, visual)
     mesh.apply_transform(_origin(visual))
     vertices = np.asarray(mesh.vertices)
     if name in robot.foot_bodies.values():
         lowest = -robot.sole.ankle_height + SOLE_CLEARANCE
         vertices = np.vstack([vertices[vertices[:, 2] >= lowest], _cut(mesh, lowest)])
-    hull = trimesh.convex.convex_hull(vertices)
-    _write_atomically(hull_file, hull.export(file_type="obj").encode())
+    count = robot.convex_pieces.get(name, 1)
+    hulls = [trimesh.convex.convex_hull(vertices)]
+    if count > 1:
+        hulls = _pieces(mesh, count)
+    return [
+        _opaque(files["model.gltf"]),
+        *(hull.export(file_type="obj").encode() for hull in hulls),
+    ]
+
+
+def _pieces(mesh: trimesh.Trimesh, count: int) -> list[trimesh.Trimesh]:
+    """Convex hulls that together follow a concave surface within about a millimetre."""
+    pieces = trimesh.decomposition.convex_decomposition(
+        mesh, maxConvexHulls=count, resolution=VOXELS
+    )
+    return [trimesh.convex.convex_hull(piece["vertices"]) for piece in pieces]
 
 
 def _opaque(gltf: bytes) -> bytes:
@@ -256,37 +266,3 @@ def _cut(mesh: trimesh.Trimesh, height: float) -> Vector:
     share = (height - a[:, 2]) / (b[:, 2] - a[:, 2])
     cut: Vector = a + share[:, None] * (b - a)
     return cut
-
-
-def _write_atomically(path: Path, data: bytes) -> None:
-    """Another process may prepare the same robot at the same time."""
-    partial = path.with_suffix(f".{os.getpid()}.partial")
-    partial.write_bytes(data)
-    partial.replace(path)
-
-
-def _add_soles(
-    plant: MultibodyPlant, instance: ModelInstanceIndex, robot: RobotModel
-) -> None:
-    sole = robot.sole
-    for foot in FEET:
-        body = plant.GetBodyByName(robot.foot_bodies[foot], instance)
-        for i, x in enumerate(np.linspace(-sole.heel, sole.toe, 3)):
-            for j, y in enumerate((-sole.half_width, sole.half_width)):
-                centre: Vector = np.array([x, y, SPHERE_RADIUS - sole.ankle_height])
-                properties = ProximityProperties()
-                properties.AddProperty(
-                    "material", "coulomb_friction", CoulombFriction(1.0, 1.0)
-                )
-                plant.RegisterCollisionGeometry(
-                    body,
-                    RigidTransform(centre),
-                    Sphere(SPHERE_RADIUS),
-                    f"{SOLE_PREFIX}_{foot}_{i}{j}",
-                    properties,
-                )
-
-
-def is_sole(name: str) -> bool:
-    """Whether a geometry (by its name, with or without scope) belongs to a sole."""
-    return name.rpartition("::")[2].startswith(SOLE_PREFIX)

@@ -5,9 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from pydrake.math import RigidTransform
 
+from models.contact_geometry import GREATEST_FRICTION
 from models.solid_names import ROOM
 from models.solids import Box, Rgba, upright_pose
-from models.validation import require_finite, require_positive
+from models.validation import Parameters, number
 
 FLOOR_COLOR: Rgba = (0.82, 0.82, 0.80, 1.0)
 WALL_COLOR: Rgba = (0.90, 0.90, 0.93, 0.12)
@@ -17,38 +18,25 @@ FLOOR_THICKNESS = 0.5
 
 
 @dataclass(kw_only=True)
-class RoomParams:
+class RoomParams(Parameters):
     """A box-shaped room whose floor is z = 0."""
 
-    length: float = 11.0
+    length: float = number(11.0, "m", above=0.0)
     """Inner length along the room's x, m (stair paper, Sec. 6)."""
-    width: float = 7.0
+    width: float = number(7.0, "m", above=0.0)
     """Inner width along the room's y, m (stair paper, Sec. 6)."""
-    height: float = 3.0
+    height: float = number(3.0, "m", above=0.0)
     """Inner height, m (stair paper, Sec. 6)."""
-    wall_thickness: float = 0.10
+    wall_thickness: float = number(0.10, "m", above=0.0)
     """Thickness of the four walls, m."""
-    friction: float = 0.8
-    """Coulomb friction coefficient of the floor and the walls."""
-    x: float = 0.0
+    friction: float = number(0.8, above=0.0, below=GREATEST_FRICTION)
+    """Coulomb friction coefficient between floor or walls and a sole."""
+    x: float = number(0.0, "m")
     """Centre of the floor along x of W, m."""
-    y: float = 0.0
+    y: float = number(0.0, "m")
     """Centre of the floor along y of W, m."""
-    yaw: float = 0.0
+    yaw: float = number(0.0, "rad")
     """Direction of the room's x, about z of W, rad."""
-
-    def validate(self) -> None:
-        """Checks every field.
-
-        Raises:
-            ValueError: "field: reason, got x" for the first field that is wrong.
-        """
-        for field in ("length", "width", "height", "wall_thickness"):
-            require_positive(field, getattr(self, field), "m")
-        require_positive("friction", self.friction)
-        require_finite("x", self.x, "m")
-        require_finite("y", self.y, "m")
-        require_finite("yaw", self.yaw, "rad")
 
     def X_WR(self) -> RigidTransform:
         """Pose of the room frame R: at the middle of the floor, x along the length."""

@@ -1,11 +1,11 @@
 """Boxes placed at random in a room: clutter to walk through."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
 from models.obstacle import BoxParams
-from models.validation import require_at_least, require_positive
+from models.validation import LARGEST_SEED, Parameters, number
 from systems.ports import Vector
 
 TRIES = 2000
@@ -13,50 +13,51 @@ TRIES = 2000
 
 
 @dataclass(kw_only=True)
-class ClutterParams:
+class ClutterParams(Parameters):
     """How many boxes stand where, and how large they are."""
 
-    least_count: int = 6
+    least_count: int = number(6, least=0, most=1000)
     """Fewest boxes."""
-    most_count: int = 10
+    most_count: int = number(10, least=0, most=1000)
     """Most boxes."""
-    area: list[float] = field(default_factory=lambda: [-1.7, 1.7, -1.9, 1.9])
+    area: list[float] = number([-1.7, 1.7, -1.9, 1.9], "m", length=4)
     """Where their centres lie: least x, largest x, least y, largest y in W, m."""
-    least_side: float = 0.20
+    least_side: float = number(0.20, "m", above=0.0)
     """Shortest side, m."""
-    most_side: float = 0.50
+    most_side: float = number(0.50, "m", above=0.0)
     """Longest side, m."""
-    most_height: float = 0.80
+    most_height: float = number(0.80, "m", above=0.0)
     """Tallest box, m; the lowest one is `least_side` high."""
-    gap: float = 0.12
+    gap: float = number(0.12, "m", least=0.0)
     """Least distance between the circles around two boxes, m: twice the gap at which
     perception tells them apart."""
-    keep_clear: float = 0.55
+    keep_clear: float = number(0.55, "m", least=0.0)
     """Least distance of a box from the places that are kept clear, m: the robot's
     footprint with its margin, and some."""
-    seed: int = 0
+    seed: int = number(0, least=0, most=LARGEST_SEED)
     """Of places and sizes."""
 
     def validate(self) -> None:
-        """Checks every field.
+        """Checks every field, and those that concern each other.
 
         Raises:
             ValueError: "field: reason, got x" for the first field that is wrong.
         """
-        require_at_least("least_count", self.least_count, 0)
-        require_at_least("most_count", self.most_count, self.least_count)
-        if len(self.area) != 4 or not (
-            self.area[0] <= self.area[1] and self.area[2] <= self.area[3]
+        super().validate()
+        for small, large in (
+            ("least_count", "most_count"),
+            ("least_side", "most_side"),
+            ("least_side", "most_height"),
         ):
+            if getattr(self, large) < getattr(self, small):
+                raise ValueError(
+                    f"{large}: must be at least {small}, {getattr(self, small):g}, "
+                    f"got {getattr(self, large):g}"
+                )
+        if self.area[0] > self.area[1] or self.area[2] > self.area[3]:
             raise ValueError(
                 f"area: must be least x, largest x, least y, largest y, got {self.area}"
             )
-        require_positive("least_side", self.least_side, "m")
-        require_at_least("most_side", self.most_side, self.least_side, "m")
-        require_at_least("most_height", self.most_height, self.least_side, "m")
-        require_at_least("gap", self.gap, 0.0, "m")
-        require_at_least("keep_clear", self.keep_clear, 0.0, "m")
-        require_at_least("seed", self.seed, 0)
 
 
 def place_boxes(params: ClutterParams, clear: Vector) -> list[BoxParams]:

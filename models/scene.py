@@ -10,11 +10,12 @@ from models.room import RoomParams
 from models.room_obstacles import ClutterParams
 from models.solids import Box
 from models.staircase import StaircaseParams, Tread
+from models.validation import Parameters
 from systems.ports import Vector
 
 
 @dataclass(kw_only=True)
-class SceneParams:
+class SceneParams(Parameters):
     """Everything around the robot."""
 
     room: RoomParams = field(default_factory=RoomParams)
@@ -29,12 +30,13 @@ class SceneParams:
     """More boxes at places drawn at random, where there are to be any."""
 
     def validate(self) -> None:
-        """Checks what concerns more than one part; each part checks itself.
+        """Checks every part, and what concerns more than one.
 
         Raises:
-            ValueError: two boxes have the same name, or the staircase does not fit
-                into the room.
+            ValueError: a field of a part is wrong, two boxes have the same name, or
+                the staircase does not fit into the room.
         """
+        super().validate()
         names = [box.name for box in (*self.boxes, *self.movers)]
         for index, name in enumerate(names):
             if name in names[:index]:

@@ -8,8 +8,9 @@ import numpy as np
 from pydrake.geometry import Box as BoxShape
 from pydrake.geometry import GeometryId, SceneGraphInspector
 from pydrake.math import RigidTransform, RollPitchYaw
-from pydrake.multibody.plant import CoulombFriction, MultibodyPlant
+from pydrake.multibody.plant import MultibodyPlant
 
+from models.contact_geometry import surface_properties
 from systems.ports import Vector
 from systems.values import Value
 
@@ -36,7 +37,8 @@ class Box(Value):
     size: Vector
     """Side lengths along B's axes, (3,), m."""
     friction: float
-    """Coulomb friction coefficient of its surface, static and dynamic alike."""
+    """Coulomb friction coefficient between its surface and a sole, static and dynamic
+    alike."""
     color: Rgba
     """Red, green, blue and opacity, each 0 to 1; for pictures alone."""
 
@@ -59,9 +61,9 @@ def add_solids(plant: MultibodyPlant, solids: Iterable[Box]) -> None:
     world = plant.world_body()
     for solid in solids:
         shape = BoxShape(*solid.size)
-        friction = CoulombFriction(solid.friction, solid.friction)
+        surface = surface_properties(solid.friction)
         color: Vector = np.array(solid.color, dtype=np.float64)
-        plant.RegisterCollisionGeometry(world, solid.X_WB, shape, solid.name, friction)
+        plant.RegisterCollisionGeometry(world, solid.X_WB, shape, solid.name, surface)
         plant.RegisterVisualGeometry(world, solid.X_WB, shape, solid.name, color)
 
 

@@ -5,9 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from pydrake.math import RigidTransform
 
+from models.contact_geometry import GREATEST_FRICTION
 from models.solid_names import STAIRCASE
 from models.solids import Box, Rgba, upright_pose
-from models.validation import require_finite, require_positive
+from models.validation import Parameters, number
 from systems.ports import Vector
 from systems.values import Value
 
@@ -27,49 +28,42 @@ class Tread(Value):
 
 
 @dataclass(kw_only=True)
-class StaircaseParams:
+class StaircaseParams(Parameters):
     """A straight staircase standing on the floor z = 0."""
 
-    steps: int = 3
+    steps: int = number(3, least=1, most=100)
     """How many risers, and as many treads."""
-    rise: float = 0.20
+    rise: float = number(0.20, "m", above=0.0)
     """Height of each step, m (stair paper, experiment 1)."""
-    run: float = 0.27
+    run: float = number(0.27, "m", above=0.0)
     """Depth of each tread, the top one included, m (stair paper, experiment 1)."""
-    width: float = 0.50
+    width: float = number(0.50, "m", above=0.0)
     """Width across, m (stair paper, experiment 1)."""
     closed_risers: bool = True
     """Whether each step is solid down to the floor, or a plate with air beneath."""
-    tread_thickness: float = 0.04
+    tread_thickness: float = number(0.04, "m", above=0.0)
     """Thickness of the plates where the risers are open, m."""
-    friction: float = 0.8
-    """Coulomb friction coefficient of the treads."""
-    x: float = 0.6
+    friction: float = number(0.8, above=0.0, below=GREATEST_FRICTION)
+    """Coulomb friction coefficient between the treads and a sole."""
+    x: float = number(0.6, "m")
     """Where the foot of the first riser has its middle, along x of W, m."""
-    y: float = 0.0
+    y: float = number(0.0, "m")
     """The same along y of W, m."""
-    yaw: float = 0.0
+    yaw: float = number(0.0, "rad")
     """Direction in which the stairs go up, about z of W from its x, rad."""
 
     def validate(self) -> None:
-        """Checks every field.
+        """Checks every field, and those that concern each other.
 
         Raises:
             ValueError: "field: reason, got x" for the first field that is wrong.
         """
-        if self.steps < 1:
-            raise ValueError(f"steps: must be at least 1, got {self.steps}")
-        for field in ("rise", "run", "width", "tread_thickness"):
-            require_positive(field, getattr(self, field), "m")
+        super().validate()
         if not self.closed_risers and self.tread_thickness >= self.rise:
             raise ValueError(
                 "tread_thickness: must be less than the rise where risers are open, "
                 f"got {self.tread_thickness:g} m at a rise of {self.rise:g} m"
             )
-        require_positive("friction", self.friction)
-        require_finite("x", self.x, "m")
-        require_finite("y", self.y, "m")
-        require_finite("yaw", self.yaw, "rad")
 
     def X_WS(self) -> RigidTransform:
         """Pose of the staircase frame S: at the foot of the first riser, x up."""

@@ -1,43 +1,228 @@
-"""Checks that parameters share, so that every message reads "field: reason, got x"."""
+"""Bounds that parameters state beside their fields, and the one check of them.
 
+A parameter class derives from `Parameters` and says with each default what unit the
+field has and what it may be:
+
+    rise: float = number(0.20, "m", above=0.0)
+
+Every message reads "field: reason, got x".
+"""
+
+import dataclasses
 import math
-from collections.abc import Sequence
+import numbers
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, TypeVar, cast
+
+T = TypeVar("T")
+P = TypeVar("P", bound="Parameters")
+
+LARGEST = {"m": 1e3, "s": 1e5, "rad": 2.0 * math.pi, "deg": 360.0, "m/s": 100.0}
+"""By unit, what no quantity of a robot and its surroundings exceeds either way."""
+LARGEST_OF_OTHERS = 1e6
+"""The same for every other unit, and for what has none."""
+RIGHT_ANGLE = math.pi / 2.0
+"""rad."""
+LARGEST_SEED = 2**31 - 1
+BOUNDS, CHOICES, SHARED = "bounds", "choices", "shared"
+"""Keys of a field's metadata: what it may be, and which field it takes its value of."""
 
 
-def require_finite(field: str, value: float, unit: str = "") -> None:
-    """Raises ValueError unless the value is a finite number."""
-    if not math.isfinite(value):
-        raise ValueError(f"{field}: must be finite, got {_with_unit(value, unit)}")
+@dataclass(frozen=True)
+class Bounds:
+    """What a number, or each number of a list, may be."""
+
+    unit: str
+    """Empty where it has none."""
+    above: float
+    """It exceeds this."""
+    least: float
+    below: float
+    """It is less than this."""
+    most: float
+    length: int | None
+    """Of a list; None for any."""
+    fewest: int
+    """A list has at least so many elements."""
+
+    def check(self, field: str, value: float, whole: bool) -> None:
+        """Checks one number.
+
+        Args:
+            field: its name.
+            value: the number.
+            whole: whether it counts something.
+
+        Raises:
+            ValueError: it is no finite number within the bounds.
+        """
+        if isinstance(value, bool) or not isinstance(value, numbers.Real):
+            raise ValueError(f"{field}: must be a number, got {value!r}")
+        if not math.isfinite(value):
+            reason = "finite"
+        elif whole and not isinstance(value, numbers.Integral):
+            reason = "a whole number"
+        elif not value > self.above:
+            more = f"more than {self._shown(self.above)}"
+            reason = more if self.above else "positive"
+        elif not value >= self.least:
+            reason = f"at least {self._shown(self.least)}"
+        elif not value < self.below:
+            reason = f"less than {self._shown(self.below)}"
+        elif not value <= self.most:
+            reason = f"at most {self._shown(self.most)}"
+        else:
+            return
+        raise ValueError(f"{field}: must be {reason}, got {self._shown(value)}")
+
+    def _shown(self, value: float) -> str:
+        return f"{value:g} {self.unit}".rstrip()
 
 
-def require_positive(field: str, value: float, unit: str = "") -> None:
-    """Raises ValueError unless the value is finite and greater than zero."""
-    require_finite(field, value, unit)
-    if not value > 0.0:
-        raise ValueError(f"{field}: must be positive, got {_with_unit(value, unit)}")
+def number(
+    default: T,
+    unit: str = "",
+    *,
+    above: float = -math.inf,
+    least: float | None = None,
+    below: float = math.inf,
+    most: float | None = None,
+    length: int | None = None,
+    fewest: int = 0,
+    shared: str = "",
+) -> T:
+    """Declares a number of a parameter class, or a list of numbers.
+
+    Args:
+        default: what it is unless given; a list is copied.
+        unit: empty where it has none.
+        above: it exceeds this.
+        least: it is no less than this; minus `LARGEST` of its unit if None.
+        below: it is less than this.
+        most: it does not exceed this; `LARGEST` of its unit if None.
+        length: of a list; None for any.
+        fewest: a list has at least so many elements.
+        shared: the one field of a scenario that this and others take their value of,
+            its path there; see `share`. Empty where it is a field of its own.
+
+    Returns:
+        The dataclass field; to a type checker it is the default.
+    """
+    largest = LARGEST.get(unit, LARGEST_OF_OTHERS)
+    bounds = Bounds(
+        unit,
+        above,
+        -largest if least is None else least,
+        below,
+        largest if most is None else most,
+        length,
+        fewest,
+    )
+    metadata = {BOUNDS: bounds, SHARED: shared}
+    if isinstance(default, list):
+        copied: Any = dataclasses.field(default_factory=default.copy, metadata=metadata)
+    else:
+        copied = dataclasses.field(default=default, metadata=metadata)
+    return cast(T, copied)
+
+
+def choice(default: str, choices: Sequence[str]) -> str:
+    """Declares a text of a parameter class that is one of a few.
+
+    Args:
+        default: what it is unless given.
+        choices: what it may be.
+
+    Returns:
+        The dataclass field; to a type checker it is the default.
+    """
+    found: Any = dataclasses.field(default=default, metadata={CHOICES: tuple(choices)})
+    return cast(str, found)
+
+
+@dataclass(kw_only=True)
+class Parameters:
+    """Base of the parameter classes: what their fields state is what they check."""
+
+    def validate(self) -> None:
+        """Checks every field, and those of the parts.
+
+        Raises:
+            ValueError: "field: reason, got x" for the first field that is wrong.
+        """
+        for item in dataclasses.fields(self):
+            value = getattr(self, item.name)
+            if BOUNDS in item.metadata and value is not None:
+                _check_numbers(item, value)
+            elif CHOICES in item.metadata:
+                _check_choice(item.name, value, item.metadata[CHOICES])
+            elif isinstance(value, list):
+                for index, part in enumerate(value):
+                    _check_part(f"{item.name}[{index}]", part)
+            else:
+                _check_part(item.name, value)
 
 
 def require_at_least(field: str, value: float, least: float, unit: str = "") -> None:
-    """Raises ValueError unless the value is finite and no less than `least`."""
-    require_finite(field, value, unit)
-    if not value >= least:
+    """Checks an argument that is no field: a finite number, no less than `least`.
+
+    Raises:
+        ValueError: "field: reason, got x".
+    """
+    inf = math.inf
+    Bounds(unit, -inf, least, inf, inf, None, 0).check(field, value, False)
+
+
+def share(params: P, values: Mapping[str, float]) -> P:
+    """Gives every shared number its value, in the parts of the parameters too.
+
+    Args:
+        params: not changed.
+        values: by `shared` path.
+
+    Returns:
+        A copy with the values.
+    """
+    changes: dict[str, Any] = {}
+    for item in dataclasses.fields(params):
+        value = getattr(params, item.name)
+        if item.metadata.get(SHARED):
+            changes[item.name] = values[item.metadata[SHARED]]
+        elif isinstance(value, Parameters):
+            changes[item.name] = share(value, values)
+    return dataclasses.replace(params, **changes)
+
+
+def _check_numbers(item: "dataclasses.Field[Any]", value: Any) -> None:
+    """Checks the number or the list of numbers that a field holds."""
+    bounds: Bounds = item.metadata[BOUNDS]
+    if not isinstance(value, list):
+        bounds.check(item.name, value, item.type is int)
+        return
+    if bounds.length is not None and len(value) != bounds.length:
         raise ValueError(
-            f"{field}: must be at least {_with_unit(least, unit)}, "
-            f"got {_with_unit(value, unit)}"
+            f"{item.name}: must have {bounds.length} elements, got {len(value)}"
         )
+    if len(value) < bounds.fewest:
+        raise ValueError(
+            f"{item.name}: must have at least {bounds.fewest} elements, "
+            f"got {len(value)}"
+        )
+    for index, element in enumerate(value):
+        bounds.check(f"{item.name}[{index}]", element, False)
 
 
-def require_length(field: str, value: Sequence[float], length: int) -> None:
-    """Raises ValueError unless the value has `length` elements."""
-    if len(value) != length:
-        raise ValueError(f"{field}: must have {length} elements, got {len(value)}")
-
-
-def require_one_of(field: str, value: str, choices: Sequence[str]) -> None:
-    """Raises ValueError unless the value is one of the choices."""
+def _check_choice(name: str, value: str, choices: Sequence[str]) -> None:
+    """Checks that a text is one of a few."""
     if value not in choices:
-        raise ValueError(f"{field}: must be one of {', '.join(choices)}, got {value!r}")
+        raise ValueError(f"{name}: must be one of {', '.join(choices)}, got {value!r}")
 
 
-def _with_unit(value: float, unit: str) -> str:
-    return f"{value:g} {unit}".rstrip()
+def _check_part(name: str, value: object) -> None:
+    """Checks the fields of a part, and says of which part a wrong one is."""
+    if isinstance(value, Parameters):
+        try:
+            value.validate()
+        except ValueError as error:
+            raise ValueError(f"{name}.{error}") from None

@@ -43,6 +43,8 @@ class ObstacleMap(Value):
     """"none" before the first scan."""
     floor_outline: Vector = field(default_factory=lambda: np.zeros((0, 2)))
     """Corners of the hull of the floor that was seen, in W, (n, 2), m."""
+    sensed_at: float | None = None
+    """When the work on its sweep began, s; None for a cloud without a time."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -106,6 +106,8 @@ class Environment(Value):
     boxes: tuple[ObstacleBox, ...] = ()
     reason: str = ""
     """Why there is no floor, in one line; empty otherwise."""
+    sensed_at: float | None = None
+    """When the robot looked, s; what it saw is there later. None before it has."""
 
 
 @dataclass(frozen=True, eq=False)

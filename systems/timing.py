@@ -1,15 +1,33 @@
 """How long each system's callbacks take: a stopwatch that a run can read out."""
 
+import math
+import threading
 from collections.abc import Callable
 from time import perf_counter
 from typing import ParamSpec, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 from pydrake.systems.framework import System
 
 P = ParamSpec("P")
 R = TypeVar("R")
+
+SHORTEST, LONGEST = 1e-8, 1e4
+"""Between these durations are told apart, s."""
+RESOLUTION = 0.02
+"""Relative width of a bin: a quantile is off by half of it at most."""
+_PER_LOG = 1.0 / math.log1p(RESOLUTION)
+_BINS = math.ceil(math.log(LONGEST / SHORTEST) * _PER_LOG)
+
+
+class _Running(threading.local):
+    """The callbacks that run in a thread, and how long what each called has taken."""
+
+    def __init__(self) -> None:
+        self.nested: list[float] = []
+
+
+_RUNNING = _Running()
 
 
 class Stopwatch:
@@ -17,30 +35,58 @@ class Stopwatch:
 
     Evaluating an input port runs the callbacks upstream within this one; their time
     is theirs. Measuring is no part of the simulated state: it never changes a value.
+    The durations are counted in bins of equal relative width, so that a stopwatch
+    takes the same memory however long a run is.
     """
-
-    _nested: list[float] = []  # noqa: RUF012  (the stack of running callbacks)
 
     def __init__(self) -> None:
         """A stopwatch that has measured nothing."""
-        self._durations: list[float] = []
+        self._bins = [0] * _BINS
+        self._total = 0.0
 
-    def durations(self) -> NDArray[np.float64]:
-        """Every duration so far, (n,), s."""
-        return np.array(self._durations, dtype=np.float64)
+    @property
+    def count(self) -> int:
+        """How many calls were measured."""
+        return sum(self._bins)
+
+    @property
+    def total(self) -> float:
+        """How long they took together, s."""
+        return self._total
+
+    def quantile(self, share: float) -> float:
+        """The duration that this share of the calls did not exceed, s.
+
+        Args:
+            share: 0.5 for the median.
+
+        Raises:
+            ValueError: nothing was measured.
+        """
+        if self.count == 0:
+            raise ValueError("nothing was measured")
+        below = np.cumsum(self._bins)
+        number = int(np.searchsorted(below, max(1.0, share * below[-1])))
+        return SHORTEST * math.exp((number + 0.5) / _PER_LOG)
+
+    def add(self, duration: float) -> None:
+        """Counts one call, s."""
+        number = int(math.log(max(duration, SHORTEST) / SHORTEST) * _PER_LOG)
+        self._bins[min(number, _BINS - 1)] += 1
+        self._total += duration
 
     def wrap(self, callback: Callable[P, R]) -> Callable[P, R]:
         """The callback, measured."""
-        nested, durations = Stopwatch._nested, self._durations
 
         def measured(*args: P.args, **kwargs: P.kwargs) -> R:
+            nested = _RUNNING.nested
             nested.append(0.0)
             start = perf_counter()
             try:
                 return callback(*args, **kwargs)
             finally:
                 elapsed = perf_counter() - start
-                durations.append(elapsed - nested.pop())
+                self.add(elapsed - nested.pop())
                 if nested:
                     nested[-1] += elapsed
 

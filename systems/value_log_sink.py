@@ -71,6 +71,10 @@ class ValueLogSink(LeafSystem):
         """Everything that was logged in a diagram's context, in order of time."""
         return tuple(self._entries(self.GetMyContextFromRoot(root_context)))
 
+    def forget_log(self, root_context: Context) -> None:
+        """Forgets all but the last entry, by which the next change is seen."""
+        del self._entries(self.GetMyContextFromRoot(root_context))[:-1]
+
     def _entries(self, context: Context) -> list[LoggedValue]:
         held = self._log.get_mutable_cache_entry_value(context)
         entries = held.GetMutableValueOrThrow()

@@ -242,6 +242,8 @@ class PlaneSegmentation(Value):
     """The cluster of planes of like size that makes up the staircase."""
     times_ms: tuple[tuple[str, float], ...] = ()
     """Wall time of each stage, (stage, ms), in order."""
+    sensed_at: float | None = None
+    """When the work on its sweep began, s; None for a cloud without a time."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -250,7 +252,7 @@ class TaskStatus(Value):
 
     state: Literal["running", "finished", "infeasible"] = "running"
     activity: str = ""
-    """What it is doing now: "scan", "plan", "move", "stand"."""
+    """What it is doing now, e.g. "scan", "plan", "move", "stand"."""
     reason: str = ""
     """Why it stopped, in one line."""
 

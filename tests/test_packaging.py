@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
-TOP_LEVEL = ("diagrams", "models", "systems")
+TOP_LEVEL = ("diagrams", "footfall", "models", "systems")
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 
 
@@ -69,7 +69,7 @@ def test_every_scenario_is_shipped() -> None:
 def test_the_command_is_there() -> None:
     """`footfall` is installed and leads to the command line."""
     (command,) = entry_points(group="console_scripts", name="footfall")
-    from diagrams.cli import main
+    from footfall.__main__ import main
 
     assert command.load() is main
 

@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 from diagrams.block_diagram import topology
-from diagrams.scenario import list_scenarios, load_scenario
+from diagrams.scenario import load_scenario
+from diagrams.shipped import list_scenarios
 from diagrams.summary import Summary
 from diagrams.tasks import build_task
 

@@ -113,6 +113,7 @@ def filter_motion_varying_height(
     zmp_multibody: Vector,
     height_factor: Vector,
     params: ZmpPreviewParams,
+    weight: Vector | None = None,
 ) -> ComMotion:
     """The same second stage on `systems.balance.zmp_tracking`, exact on stairs.
 
@@ -124,13 +125,16 @@ def filter_motion_varying_height(
         zmp_multibody: p_MB of the joint motion that follows `motion`, (n, 2), m.
         height_factor: c of the first stage, (n,), s^2.
         params: those of the first stage.
+        weight: that of the first stage.
 
     Returns:
         The corrected motion; it starts where `motion` does and ends at rest, with the
         CoM moved by the last ZMP error.
     """
     error = zmp_ref - zmp_multibody
-    correction = generate_varying_height(error, height_factor, params, np.zeros((2, 3)))
+    correction = generate_varying_height(
+        error, height_factor, params, np.zeros((2, 3)), weight
+    )
     return _added(motion, correction)
 
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from pydrake.systems.framework import BasicVector, Context, DiscreteValues, LeafSystem
 
-from models.validation import require_at_least, require_positive
+from models.validation import Parameters, number
 from systems.ports import Vector, eval_vector, set_vector
 from systems.timing import timed
 
@@ -19,38 +19,29 @@ _ROLL, _PITCH = 3, 4
 
 
 @dataclass(kw_only=True)
-class LandingParams:
+class LandingParams(Parameters):
     """When a foot counts as landed and how it looks for the ground."""
 
-    period: float = 0.005
+    period: float = number(
+        0.005, "s", least=1e-4, most=0.1, shared="parameters.control_period"
+    )
     """Of the controllers, s."""
-    touch_force: float = 15.0
+    touch_force: float = number(15.0, "N", above=0.0)
     """Vertical force that counts as ground, N; a sensor's noise and the foot's own
     inertia stay below."""
-    blind_time: float = 0.3
+    blind_time: float = number(0.3, "s", least=0.0)
     """After lift-off no force counts for this long, s: the foot still leaves."""
-    search_speed: float = 0.10
+    search_speed: float = number(0.10, "m/s", above=0.0)
     """Speed at which a foot that missed the ground goes on down, m/s."""
-    search_depth: float = 0.03
+    search_depth: float = number(0.03, "m", least=0.0)
     """How far it does so, m; then it is taken for landed, as deep ground is a plan's
     business."""
-    release_time: float = 0.08
+    release_time: float = number(0.08, "s", above=0.0)
     """Time constant with which a lifted foot forgets where it stood, s."""
-    swing_gain: float = 15.0
+    swing_gain: float = number(15.0, "1/s", least=0.0)
     """Rate at which a foot in the air is brought to its plan, 1/s."""
-    swing_limit: float = 0.04
+    swing_limit: float = number(0.04, "m", least=0.0)
     """Most that its reference is shifted for that, m and rad."""
-
-    def validate(self) -> None:
-        """Checks every field.
-
-        Raises:
-            ValueError: "field: reason, got x" for the first field that is wrong.
-        """
-        for name in ("period", "touch_force", "search_speed", "release_time"):
-            require_positive(name, getattr(self, name))
-        for name in ("blind_time", "search_depth", "swing_gain", "swing_limit"):
-            require_at_least(name, getattr(self, name), 0.0)
 
 
 @dataclass(frozen=True)

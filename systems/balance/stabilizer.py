@@ -6,7 +6,7 @@ import numpy as np
 from pydrake.systems.framework import BasicVector, Context, LeafSystem
 
 from models.robot import Sole
-from models.validation import require_at_least
+from models.validation import Parameters, number
 from systems.balance.wrench_distribution import (
     DistributionParams,
     TorqueMap,
@@ -18,27 +18,17 @@ from systems.timing import timed
 
 
 @dataclass(kw_only=True)
-class StabilizerParams:
+class StabilizerParams(Parameters):
     """Gains of the feedback."""
 
-    dcm_gain: float = 1.0
+    dcm_gain: float = number(1.0, least=0.0)
     """k: the ZMP answers a DCM error e with (1 + k) e, so that it decays as
     exp(-k omega t); 3 falls (the feet have no such reach)."""
-    height_stiffness: float = 100.0
+    height_stiffness: float = number(100.0, "1/s^2", least=0.0)
     """Acceleration per height error of the CoM, 1/s^2."""
-    height_damping: float = 20.0
+    height_damping: float = number(20.0, "1/s", least=0.0)
     """Acceleration per vertical velocity error of the CoM, 1/s."""
     distribution: DistributionParams = field(default_factory=DistributionParams)
-
-    def validate(self) -> None:
-        """Checks every field.
-
-        Raises:
-            ValueError: "field: reason, got x" for the first field that is wrong.
-        """
-        for name in ("dcm_gain", "height_stiffness", "height_damping"):
-            require_at_least(name, getattr(self, name), 0.0)
-        self.distribution.validate()
 
 
 @dataclass(frozen=True)

@@ -1,61 +1,44 @@
 """Sharing a net wrench among the feet, each inside its contact wrench cone."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import lru_cache
 
 import daqp
 import numpy as np
 
 from models.robot import Sole
+from models.validation import Parameters, number
 from systems.balance.contact_wrench_cone import contact_wrench_cone
 from systems.balance.sole_contacts import carrying_contact
 from systems.ports import Vector
 
 
 @dataclass(kw_only=True)
-class DistributionParams:
+class DistributionParams(Parameters):
     """Weights and limits of the quadratic programme."""
 
-    friction: float = 0.6
+    friction: float = number(0.6, above=0.0, most=10.0, shared="parameters.friction")
     """mu of the pyramid that the wrenches are kept in; below the ground's, so that the
     feet do not slide."""
-    edge_margin: float = 0.004
-    """The centre of pressure keeps this far inside the sole's edges, m."""
-    least_force: float = 5.0
+    edge_margin: float = number(0.012, "m", least=0.0)
+    """The centre of pressure keeps this far inside the sole's edges, m: nearer to one
+    the rubber of the sole gives and the foot tips over it."""
+    least_force: float = number(5.0, "N", least=0.0)
     """Normal force that a foot on the ground keeps at least, N."""
-    force_weight: float = 1.0
+    force_weight: float = number(1.0, above=0.0)
     """Weight of the error in net force, 1/N^2."""
-    moment_weight: float = 10.0
+    moment_weight: float = number(10.0, above=0.0)
     """Weight of the error in net moment about horizontal axes, 1/(Nm)^2."""
-    yaw_weight: float = 3.0
+    yaw_weight: float = number(3.0, above=0.0)
     """Weight of the error in net moment about the vertical, 1/(Nm)^2."""
-    tangential_cost: float = 1e-4
+    tangential_cost: float = number(1e-4, least=0.0)
     """Cost of tangential force, 1/N^2."""
-    moment_cost: list[float] = field(default_factory=lambda: [0.02, 0.01, 0.05])
+    moment_cost: list[float] = number([0.02, 0.01, 0.05], least=0.0, length=3)
     """Costs of a foot's moment about its centre, x, y, z, 1/(Nm)^2: keeps the centre of
     pressure off the edges where both feet can share."""
-    torque_cost: float = 0.003
+    torque_cost: float = number(0.003, least=0.0)
     """Cost of a joint torque of the legs, 1/(Nm)^2: lets the legs push against each
     other where that takes torque off the worst joint."""
-
-    def validate(self) -> None:
-        """Checks every field.
-
-        Raises:
-            ValueError: "field: reason, got x" for the first field that is wrong.
-        """
-        for name in ("friction", "force_weight", "moment_weight", "yaw_weight"):
-            if not 0.0 < getattr(self, name) < np.inf:
-                raise ValueError(f"{name}: must be positive, got {getattr(self, name)}")
-        for name in ("edge_margin", "least_force", "tangential_cost", "torque_cost"):
-            if not 0.0 <= getattr(self, name) < np.inf:
-                raise ValueError(
-                    f"{name}: must not be negative, got {getattr(self, name)}"
-                )
-        if len(self.moment_cost) != 3 or not min(self.moment_cost) >= 0.0:
-            raise ValueError(
-                f"moment_cost: must be three costs of 0 or more, got {self.moment_cost}"
-            )
 
 
 @dataclass(frozen=True)

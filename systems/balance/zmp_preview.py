@@ -7,12 +7,12 @@ Eqs. 16 to 18 are its first stage. `systems.balance.zmp_tracking` is the better 
 for a plan whose future is known and whose height varies.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import solve_banded, solve_discrete_are
-from scipy.signal import oaconvolve
 
+from models.validation import Parameters, number
 from systems.ports import Vector
 
 GRAVITY = 9.81
@@ -20,41 +20,38 @@ GRAVITY = 9.81
 
 
 @dataclass(kw_only=True)
-class ZmpPreviewParams:
+class ZmpPreviewParams(Parameters):
     """Parameters of the preview controller; Kajita 2003 where not said otherwise."""
 
-    period: float = 0.005
+    period: float = number(
+        0.005, "s", least=1e-4, most=0.1, shared="parameters.control_period"
+    )
     """T: one tick, s; the paper's value, and the period of the servo loop."""
-    com_height: float = 0.814
+    com_height: float = number(
+        0.814, "m", least=0.3, most=3.0, shared="parameters.com_height"
+    )
     """z_c: height of the CoM over the ZMP's plane, m; the paper's value."""
-    preview_time: float = 1.6
+    preview_time: float = number(1.6, "s", above=0.0, most=10.0)
     """How far ahead the reference is used, s; the paper's value."""
-    error_weight: float = 1.0
+    error_weight: float = number(1.0, "1/m^2", least=1e-3, most=1e3)
     """Q_e: weight of the ZMP error, 1/m^2; the paper's value."""
-    state_weight: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
+    state_weight: list[float] = number([0.0, 0.0, 0.0], least=0.0, length=3)
     """Q_x: weights of the increments of CoM position, velocity and acceleration a
     tick; the paper's value is zero."""
-    jerk_weight: float = 1e-6
+    jerk_weight: float = number(1e-6, "s^6/m^2", least=1e-12, most=1.0)
     """R: weight of the increment of the jerk a tick, s^6/m^2; the paper's value."""
 
     def validate(self) -> None:
-        """Refuses values that make no controller.
+        """Checks every field, and those that concern each other.
 
         Raises:
-            ValueError: "field: reason, got x".
+            ValueError: "field: reason, got x" for the first field that is wrong.
         """
-        for name in ("period", "com_height", "error_weight", "jerk_weight"):
-            value = getattr(self, name)
-            if not 0.0 < value < np.inf:
-                raise ValueError(f"{name}: must be positive, got {value}")
-        if not self.period <= self.preview_time < np.inf:
+        super().validate()
+        if not self.period <= self.preview_time:
             raise ValueError(
-                f"preview_time: must be at least one period, got {self.preview_time} s"
-            )
-        weights = self.state_weight
-        if len(weights) != 3 or not all(0.0 <= w < np.inf for w in weights):
-            raise ValueError(
-                f"state_weight: must be three values of at least 0, got {weights}"
+                "preview_time: must be at least one period, "
+                f"got {self.preview_time:g} s"
             )
 
 
@@ -190,6 +187,9 @@ def generate(
     Raises:
         ValueError: zmp_ref is not (n, 2) with n of at least 1, or not finite.
     """
+    # scipy.signal brings scipy.stats along, which takes longer than the rest of SciPy.
+    from scipy.signal import oaconvolve
+
     zmp_ref = check_reference(zmp_ref)
     start = rest_state(zmp_ref[0]) if initial_state is None else initial_state
     n, N = len(zmp_ref), gains.horizon

@@ -48,10 +48,11 @@ def generate_varying_height(
     height_factor: Vector,
     params: ZmpPreviewParams,
     initial_state: Vector | None = None,
+    weight: Vector | None = None,
 ) -> ComMotion:
     """The optimal motion over a whole plan that ends at rest on the last ZMP.
 
-    Minimises sum Q_e e^2 + R du^2 as `preview_gains` does (e the ZMP error, du the
+    Minimises sum Q_e w e^2 + R du^2 as `preview_gains` does (e the ZMP error, du the
     increment of the jerk), subject to the triple integrator, the initial state and
     the terminal one. Each tick has the unknowns position, acceleration and the
     multiplier of its spline equation
@@ -64,13 +65,14 @@ def generate_varying_height(
             the constant-height controller.
         initial_state: rows x and y of (position, velocity, acceleration), (2, 3); at
             rest on the first ZMP if None.
+        weight: w, (n,), how much the ZMP error counts at each tick; 1 if None.
 
     Returns:
         The motion, n ticks. Its ZMP is com - c a.
 
     Raises:
         ValueError: zmp_ref is not (n, 2) with n of at least 3, height_factor not (n,)
-            and positive, or a parameter out of range.
+            and positive, weight not (n,) and positive, or a parameter out of range.
     """
     params.validate()
     zmp_ref = check_reference(zmp_ref)
@@ -82,15 +84,21 @@ def generate_varying_height(
         raise ValueError(
             f"height_factor: must be positive and of shape ({n},), got shape {c.shape}"
         )
+    w = np.ones(n) if weight is None else np.asarray(weight, dtype=np.float64)
+    if w.shape != (n,) or not (np.isfinite(w).all() and w.min() > 0.0):
+        raise ValueError(
+            f"weight: must be positive and of shape ({n},), got shape {w.shape}"
+        )
     start = rest_state(zmp_ref[0]) if initial_state is None else initial_state
 
     # About the last ZMP the unknowns are small, and the end is at rest at zero.
     origin = zmp_ref[-1]
-    T, Q = params.period, params.error_weight
+    T, Q = params.period, params.error_weight * w
+    wanted = Q[:, None] * (zmp_ref - origin)
     band = _optimality_conditions(c, T, Q, params.jerk_weight)
     rhs = np.zeros((n, 3, 2))
-    rhs[1:-1, 0] = Q * (zmp_ref - origin)[1:-1]
-    rhs[1:-1, 1] = -Q * (c[:, None] * (zmp_ref - origin))[1:-1]
+    rhs[1:-1, 0] = wanted[1:-1]
+    rhs[1:-1, 1] = -(c[:, None] * wanted)[1:-1]
     rhs[0, 0] = start[:, 0] - origin
     rhs[0, 1] = start[:, 2]
     rhs[0, 2] = start[:, 1] / T
@@ -104,7 +112,7 @@ def generate_varying_height(
     return ComMotion(x + origin, velocity, a, jerk, x + origin - c[:, None] * a)
 
 
-def _optimality_conditions(c: Vector, T: float, Q: float, R: float) -> Vector:
+def _optimality_conditions(c: Vector, T: float, Q: Vector, R: float) -> Vector:
     """The matrix of the optimality conditions in LAPACK's banded form, (13, 3 n).
 
     Row 3 k is the condition on x[k], 3 k + 1 that on a[k], 3 k + 2 the equation whose
@@ -127,10 +135,10 @@ def _optimality_conditions(c: Vector, T: float, Q: float, R: float) -> Vector:
         put(3 * end, 3 * end, 1.0)
         put(3 * end + 1, 3 * end + 1, 1.0)
     # The ZMP error x - c a - p.
-    put(3 * inner, 3 * inner, Q)
-    put(3 * inner, 3 * inner + 1, -Q * c[inner])
-    put(3 * inner + 1, 3 * inner, -Q * c[inner])
-    put(3 * inner + 1, 3 * inner + 1, Q * c[inner] ** 2)
+    put(3 * inner, 3 * inner, Q[inner])
+    put(3 * inner, 3 * inner + 1, -(Q * c)[inner])
+    put(3 * inner + 1, 3 * inner, -(Q * c)[inner])
+    put(3 * inner + 1, 3 * inner + 1, (Q * c**2)[inner])
     # The jerk's increments: second differences of a, which is level beyond its ends.
     laplacian = np.zeros((n, 3))
     laplacian[:, 1] = -2.0

@@ -13,7 +13,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from models.validation import require_at_least, require_positive
+from models.validation import Parameters, number
 from systems.perception.clusters import cluster_points
 from systems.perception.range_noise import RangeNoise, slide_to_plane
 from systems.ports import Vector
@@ -32,40 +32,33 @@ turns too far before its rectangle grows."""
 
 
 @dataclass(kw_only=True)
-class ObstacleClustererParams:
+class ObstacleClustererParams(Parameters):
     """How the points above the floor become boxes."""
 
-    radius: float = 0.06
+    radius: float = number(0.06, "m", above=0.0)
     """Gap between points that separates two obstacles, m; above the spacing of the
     points at the far end."""
-    cell: float = 0.02
+    cell: float = number(0.02, "m", least=1e-3)
     """Columns in which points are gathered before, m: the leaf of the voxel grid."""
-    min_points: int = 30
+    min_points: int = number(30, least=3)
     """Clusters with fewer points are noise."""
-    tail: float = 0.04
+    tail: float = number(0.04, least=0.0, below=0.25)
     """Share of the top's points at either end that does not bound the box: they are
     noise or side. What they would span is added, as points fill a top evenly."""
-    top_share: float = 0.35
+    top_share: float = number(0.35, above=0.0, most=1.0)
     """How dense the points of a top are at least, of the densest height."""
     noise: RangeNoise = field(default_factory=RangeNoise)
     """Of the sensor."""
 
     def validate(self) -> None:
-        """Checks every field.
+        """Checks every field, and those that concern each other.
 
         Raises:
             ValueError: "field: reason, got x" for the first field that is wrong.
         """
-        require_positive("radius", self.radius, "m")
-        require_positive("cell", self.cell, "m")
+        super().validate()
         if not self.cell < self.radius:
             raise ValueError(f"cell: must be less than radius, got {self.cell:g} m")
-        require_at_least("min_points", self.min_points, 3)
-        if not 0.0 <= self.tail < 0.25:
-            raise ValueError(f"tail: must lie in [0, 0.25), got {self.tail:g}")
-        if not 0.0 < self.top_share <= 1.0:
-            raise ValueError(f"top_share: must lie in (0, 1], got {self.top_share:g}")
-        self.noise.validate()
 
 
 def find_boxes(

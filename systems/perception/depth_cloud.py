@@ -10,12 +10,7 @@ from pydrake.math import RigidTransform
 from pydrake.perception import PointCloud
 from pydrake.systems.framework import BasicVector, Context, LeafSystem
 
-from models.validation import (
-    require_at_least,
-    require_finite,
-    require_length,
-    require_positive,
-)
+from models.validation import Parameters, number
 from systems.perception.scan_assembler import SelfFilterBox, remove_own_points
 from systems.ports import Vector, eval_abstract, set_vector
 from systems.room_values import DepthImage
@@ -24,34 +19,35 @@ from systems.timing import timed
 
 
 @dataclass(kw_only=True)
-class DepthCloudParams:
+class DepthCloudParams(Parameters):
     """How a depth image becomes a cloud."""
 
-    leaf: float = 0.02
+    leaf: float = number(0.02, "m", least=1e-3)
     """Edge of the voxels whose points are replaced by their centroid, m (room paper,
     Sec. 2.1.1: 0.005 to 0.08 m)."""
-    margin: float = 0.08
+    margin: float = number(0.08, "m", least=0.0)
     """How far the boxes about the robot's own bodies are inflated, m: about four
     standard deviations of a depth in the middle of the range."""
-    lower: list[float] | None = None
+    lower: list[float] | None = number(None, "m", length=3)
     """Least corner in W, (3,), m, of the part of the room that is looked at; none for
     all that is in view. Takes out walls."""
-    upper: list[float] | None = None
+    upper: list[float] | None = number(None, "m", length=3)
     """Its greatest corner, (3,), m."""
 
     def validate(self) -> None:
-        """Checks every field.
+        """Checks every field, and those that concern each other.
 
         Raises:
             ValueError: "field: reason, got x" for the first field that is wrong.
         """
-        require_positive("leaf", self.leaf, "m")
-        require_at_least("margin", self.margin, 0.0, "m")
-        for name, corner in (("lower", self.lower), ("upper", self.upper)):
-            if corner is not None:
-                require_length(name, corner, 3)
-                for index, coordinate in enumerate(corner):
-                    require_finite(f"{name}[{index}]", coordinate, "m")
+        super().validate()
+        if self.lower is None or self.upper is None:
+            return
+        for index, (low, high) in enumerate(zip(self.lower, self.upper, strict=True)):
+            if not low < high:
+                raise ValueError(
+                    f"upper[{index}]: must exceed lower[{index}], got {high:g} m"
+                )
 
 
 def depth_to_points(image: DepthImage) -> Vector:

@@ -10,7 +10,7 @@ import numpy as np
 import shapely  # type: ignore[import-untyped]
 from scipy.spatial import ConvexHull, QhullError
 
-from models.validation import require_at_least, require_positive
+from models.validation import LARGEST_SEED, RIGHT_ANGLE, Parameters, number
 from systems.perception.normals import estimate_normals, orient_normals
 from systems.perception.planes import fit_plane
 from systems.perception.range_noise import RangeNoise, slide_to_plane
@@ -25,64 +25,42 @@ OUTLINE_TOLERANCE = 0.01
 
 
 @dataclass(kw_only=True)
-class FloorParams:
+class FloorParams(Parameters):
     """What counts as the floor.
 
     The share of a plane is that of all the points of the cloud (voxels in view,
     cropped, without the robot) that lie on it within the noise.
     """
 
-    expected_share: float = 0.7
+    expected_share: float = number(0.7, least=0.05, below=1.0)
     """Share of the floor that RANSAC counts on (room paper, Sec. 2.2.2: 70 %): it sets
     how many planes are tried at least. It is no condition, since a room full of boxes,
     or with its walls in view, has a floor too; the share found is reported."""
-    min_share: float = 0.2
+    min_share: float = number(0.2, above=0.0, below=1.0)
     """A plane with less is no floor."""
-    max_share_below: float = 0.05
+    max_share_below: float = number(0.05, least=0.0, most=1.0)
     """A plane with more points than this below it supports nothing: a table's top."""
-    confidence: float = 0.999
+    confidence: float = number(0.999, above=0.0, below=1.0)
     """Probability with which the tries are to hold one of three floor points."""
-    max_tilt: float = 0.1
+    max_tilt: float = number(0.1, "rad", above=0.0, below=RIGHT_ANGLE)
     """Most that the floor may be out of level, rad: the camera's calibration."""
-    normal_points: int = 8000
+    normal_points: int = number(8000, least=100, most=1_000_000)
     """How many of the points, evenly picked, get a normal and judge the planes."""
-    normal_neighbors: int = 20
+    normal_neighbors: int = number(20, least=5, most=1000)
     """Neighbours among these whose covariance gives a normal."""
-    normal_tolerance: float = 0.35
+    normal_tolerance: float = number(0.35, "rad", above=0.0)
     """Most that the normal of a floor point is off the vertical, beyond the tilt, rad:
     normals of noisy points scatter."""
-    deviations: float = 3.5
+    deviations: float = number(3.5, above=0.0)
     """Standard deviations of the noise within which a point lies on the plane."""
-    min_tolerance: float = 0.01
+    min_tolerance: float = number(0.01, "m", above=0.0)
     """The least that a point may lie off the plane, m."""
-    max_height: float = 2.2
+    max_height: float = number(2.2, "m", above=0.0)
     """What is higher above the floor stands in no one's way, m."""
     noise: RangeNoise = field(default_factory=RangeNoise)
     """Of the sensor."""
-    seed: int = 0
+    seed: int = number(0, least=0, most=LARGEST_SEED)
     """Of RANSAC's choices."""
-
-    def validate(self) -> None:
-        """Checks every field.
-
-        Raises:
-            ValueError: "field: reason, got x" for the first field that is wrong.
-        """
-        for item in ("expected_share", "min_share", "confidence"):
-            if not 0.0 < getattr(self, item) < 1.0:
-                raise ValueError(
-                    f"{item}: must lie between 0 and 1, got {getattr(self, item)}"
-                )
-        require_at_least("max_share_below", self.max_share_below, 0.0)
-        for item in ("max_tilt", "normal_tolerance"):
-            require_positive(item, getattr(self, item), "rad")
-        require_at_least("normal_points", self.normal_points, 100)
-        require_at_least("normal_neighbors", self.normal_neighbors, 5)
-        require_positive("deviations", self.deviations)
-        require_positive("min_tolerance", self.min_tolerance, "m")
-        require_positive("max_height", self.max_height, "m")
-        self.noise.validate()
-        require_at_least("seed", self.seed, 0)
 
 
 def extract_floor(

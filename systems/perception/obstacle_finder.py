@@ -1,7 +1,7 @@
 """Eyes: what stands in the way, from the robot's own scan."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -15,15 +15,16 @@ from pydrake.systems.framework import (
     State,
 )
 
+from models.validation import require_at_least
 from systems.obstacle_values import ObstacleMap
 from systems.perception.obstacles import ObstacleFinderParams, find_obstacles
 from systems.ports import Vector, eval_abstract, eval_vector, set_vector
+from systems.thinking import Thought, ready_time
 from systems.timing import timed
-from systems.values import Value
 
 
 @dataclass(frozen=True, eq=False)
-class _Seen(Value):
+class _Seen(Thought):
     """What the last finished sweep showed."""
 
     map: ObstacleMap = field(default_factory=ObstacleMap)
@@ -33,6 +34,9 @@ class _Seen(Value):
 
 class ObstacleFinder(LeafSystem):
     """Finds what stands on the floor, once a sweep.
+
+    That takes time: what a sweep shows is known `latency` after it was finished; a
+    sweep that is finished meanwhile waits.
 
     .. pydrake_system::
 
@@ -49,19 +53,24 @@ class ObstacleFinder(LeafSystem):
     - `viewpoint`: p_WSensor, (3,), m, where it was seen from.
     - `sweep` (input): how many sweeps are finished, (1,).
     - `obstacle_map`: abstract ObstacleMap in W.
-    - `sweep` (output): how many sweeps were finished when it was made, (1,).
+    - `sweep` (output): how many sweeps were finished when its sweep was, (1,).
     """
 
-    def __init__(self, params: ObstacleFinderParams | None = None) -> None:
+    def __init__(
+        self, params: ObstacleFinderParams | None = None, latency: float = 0.0
+    ) -> None:
         """Declares ports, state and the update.
 
         Args:
             params: see there; None for the defaults.
+            latency: from a finished sweep to what it shows, s.
 
         Raises:
             ValueError: a parameter is wrong.
         """
         super().__init__()
+        require_at_least("latency", latency, 0.0, "s")
+        self._latency = latency
         self._params = params or ObstacleFinderParams()
         self._params.validate()
         self._cloud = self.DeclareAbstractInputPort(
@@ -86,14 +95,20 @@ class ObstacleFinder(LeafSystem):
         )
 
     def _look(self, context: Context, state: State) -> EventStatus:
+        was, time = self._get(context), context.get_time()
+        now = was.at(time)
         sweeps = int(eval_vector(self._sweep, context)[0])
-        if not sweeps > self._get(context).sweeps:
+        if now.coming is None and sweeps > now.sweeps:
+            cloud = eval_abstract(self._cloud, context, PointCloud)
+            points: Vector = cloud.xyzs().T.astype(np.float64)
+            viewpoint = eval_vector(self._viewpoint, context)
+            found = find_obstacles(points, viewpoint, self._params)
+            seen = _Seen(replace(found, sensed_at=time), sweeps)
+            ready = ready_time(time, self._latency, self._params.period)
+            now = now.until(ready, seen).at(time)
+        if now is was:
             return EventStatus.DidNothing()
-        cloud = eval_abstract(self._cloud, context, PointCloud)
-        points: Vector = cloud.xyzs().T.astype(np.float64)
-        viewpoint = eval_vector(self._viewpoint, context)
-        seen = _Seen(find_obstacles(points, viewpoint, self._params), sweeps)
-        state.get_mutable_abstract_state(int(self._state)).set_value(seen)
+        state.get_mutable_abstract_state(int(self._state)).set_value(now)
         return EventStatus.Succeeded()
 
     def _get(self, context: Context) -> _Seen:

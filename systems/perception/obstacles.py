@@ -6,7 +6,7 @@ import numpy as np
 import shapely  # type: ignore[import-untyped]
 from scipy.ndimage import uniform_filter
 
-from models.validation import require_at_least, require_positive
+from models.validation import Parameters, number
 from systems.obstacle_values import Obstacle, ObstacleMap
 from systems.perception.boxes import even_rectangle, top_height
 from systems.perception.clusters import cluster_points
@@ -14,63 +14,39 @@ from systems.ports import Vector
 
 
 @dataclass(kw_only=True)
-class ObstacleFinderParams:
+class ObstacleFinderParams(Parameters):
     """What counts as an obstacle, and where it is looked for."""
 
-    period: float = 0.025
+    period: float = number(0.025, "s", least=1e-3, most=10.0)
     """Between looks at whether a sweep is finished, s."""
-    reach: float = 3.0
+    reach: float = number(3.0, "m", above=0.0)
     """How far from the sensor obstacles are looked for, m, horizontally; farther ones
     are seen too thinly."""
-    floor_window: float = 0.02
+    floor_window: float = number(0.02, "m", above=0.0)
     """Half the thickness of the level of points that is the floor, m."""
-    min_height: float = 0.02
+    min_height: float = number(0.02, "m", above=0.0)
     """Single points this far above the floor are not the floor's, m."""
-    low_height: float = 0.006
+    low_height: float = number(0.006, "m", above=0.0)
     """What is lower above the floor, on the mean of a patch, is walked on, m."""
-    patch: float = 0.06
+    patch: float = number(0.06, "m", least=1e-3)
     """Side of such a patch, m."""
-    deviation: float = 0.005
+    deviation: float = number(0.005, "m", least=0.0)
     """Standard deviation of a point's height, m: the mean of few says less."""
-    max_height: float = 1.2
+    max_height: float = number(1.2, "m", above=0.0)
     """What is higher above the floor is none, m."""
-    radius: float = 0.06
+    radius: float = number(0.06, "m", above=0.0)
     """Gap between points that separates two obstacles, m."""
-    cell: float = 0.02
+    cell: float = number(0.02, "m", least=1e-3)
     """Columns in which points are gathered before, m."""
-    min_points: int = 40
+    min_points: int = number(40, least=3)
     """Clusters with fewer points are noise."""
-    top_window: float = 0.012
+    top_window: float = number(0.012, "m", above=0.0)
     """Half the thickness of the level of points that is a top, m: two deviations."""
-    back_allowance: float = 0.006
+    back_allowance: float = number(0.006, "m", least=0.0)
     """Added behind the top's farthest points, m: its edge lies up to a scan line
     beyond them."""
-    tail: float = 0.02
+    tail: float = number(0.02, least=0.0, below=0.25)
     """Share of the top's points at either end that does not bound it."""
-
-    def validate(self) -> None:
-        """Checks every field.
-
-        Raises:
-            ValueError: "field: reason, got x" for the first field that is wrong.
-        """
-        require_positive("period", self.period, "s")
-        for name in (
-            "reach",
-            "floor_window",
-            "min_height",
-            "low_height",
-            "patch",
-            "max_height",
-            "radius",
-            "cell",
-            "top_window",
-        ):
-            require_positive(name, getattr(self, name), "m")
-        require_at_least("deviation", self.deviation, 0.0, "m")
-        require_at_least("min_points", self.min_points, 3)
-        if not 0.0 <= self.tail < 0.25:
-            raise ValueError(f"tail: must lie in [0, 0.25), got {self.tail:g}")
 
 
 def find_obstacles(

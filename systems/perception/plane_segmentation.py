@@ -10,6 +10,7 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import NDArray
 
+from models.robot import Sole
 from systems.perception.normals import (
     estimate_normals,
     filter_slopes,
@@ -140,7 +141,7 @@ def filter_level(
 
 
 def cluster_level(
-    voxels: LevelVoxels, params: PlaneSegmenterParams
+    voxels: LevelVoxels, params: PlaneSegmenterParams, sole: Sole
 ) -> tuple[Supervoxels, NDArray[np.int64]]:
     """Supervoxels, their clusters, and Filter 3.
 
@@ -160,20 +161,22 @@ def cluster_level(
         angle=params.merge_angle,
         offset=params.merge_offset,
     )
-    foot = params.foot_length * params.foot_width
-    return supervoxels, filter_small(clusters, params.voxel_size, foot)
+    return supervoxels, filter_small(clusters, params.voxel_size, sole.area)
 
 
 def fit_planes(
-    voxels: LevelVoxels, clusters: NDArray[np.int64], params: PlaneSegmenterParams
+    voxels: LevelVoxels,
+    clusters: NDArray[np.int64],
+    params: PlaneSegmenterParams,
+    sole: Sole,
 ) -> tuple[FittedPlane, ...]:
-    """RANSAC planes within the slope tolerance, larger than a foot."""
+    """RANSAC planes within the slope tolerance, larger than a sole."""
     of = clusters if params.planes_from == "clusters" else np.minimum(clusters, 0)
     planes = ransac_planes(
         voxels.points,
         of,
         tolerance=params.plane_tolerance,
-        min_inliers=params.min_voxels(),
+        min_inliers=params.min_voxels(sole),
         rng=np.random.default_rng(params.seed),
     )
     if not planes:
@@ -254,6 +257,7 @@ def segment_planes(
     points: Vector,
     gravity: Vector,
     params: PlaneSegmenterParams,
+    sole: Sole,
     viewpoint: Vector | None = None,
 ) -> tuple[PlaneSegmentation, Stages]:
     """Plane segments of a cloud, and the staircase among them.
@@ -263,6 +267,7 @@ def segment_planes(
             left out. An empty cloud has an empty segmentation.
         gravity: gravity in W, (3,), any length: it points down.
         params: parameters.
+        sole: of the robot; what is smaller is no plane to stand on.
         viewpoint: where the cloud was seen from, (3,), m. Without it normals are
             turned up, so that a ceiling is a plane too.
 
@@ -288,9 +293,9 @@ def segment_planes(
     eye = None if viewpoint is None else R_GW @ viewpoint
     voxels = filter_level(cloud, params, eye)
     lap("filters")
-    supervoxels, clusters = cluster_level(voxels, params)
+    supervoxels, clusters = cluster_level(voxels, params, sole)
     lap("supervoxels")
-    planes = fit_planes(voxels, clusters, params)
+    planes = fit_planes(voxels, clusters, params, sole)
     lap("planes")
     patches = bound_planes(planes, voxels, cloud, params)
     if params.staircase_from == "chain":

@@ -4,6 +4,7 @@ from pydrake.common.value import AbstractValue
 from pydrake.perception import PointCloud
 from pydrake.systems.framework import Context, LeafSystem
 
+from models.robot import Sole
 from systems.perception.plane_segmentation import segment_planes
 from systems.perception.segmenter_params import PlaneSegmenterParams
 from systems.ports import Vector, eval_abstract, eval_vector
@@ -34,10 +35,11 @@ class PlaneSegmenter(LeafSystem):
     - `segmentation`: PlaneSegmentation in W; empty where the cloud is.
     """
 
-    def __init__(self, params: PlaneSegmenterParams | None = None) -> None:
+    def __init__(self, sole: Sole, params: PlaneSegmenterParams | None = None) -> None:
         """Declares the ports.
 
         Args:
+            sole: of the robot; what is smaller is no plane to stand on.
             params: parameters; None for the paper's.
 
         Raises:
@@ -46,6 +48,7 @@ class PlaneSegmenter(LeafSystem):
         super().__init__()
         self._params = params or PlaneSegmenterParams()
         self._params.validate()
+        self._sole = sole
         self._cloud = self.DeclareAbstractInputPort(
             "cloud", AbstractValue.Make(PointCloud(0))
         )
@@ -71,5 +74,5 @@ class PlaneSegmenter(LeafSystem):
             if self._viewpoint.HasValue(context)
             else None
         )
-        found, _ = segment_planes(points, gravity, self._params, viewpoint)
+        found, _ = segment_planes(points, gravity, self._params, self._sole, viewpoint)
         segmentation.set_value(found)

@@ -4,31 +4,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from models.validation import require_at_least
+from models.validation import Parameters, number
 from systems.ports import Vector
 
 
 @dataclass(kw_only=True)
-class RangeNoise:
+class RangeNoise(Parameters):
     """Deviation along the ray that grows with the square of the distance.
 
     Khoshelham and Elberink (2012), Eq. 11, as the room paper quotes it.
     """
 
-    near: float = 0.002
+    near: float = number(0.002, "m", least=0.0)
     """Standard deviation close by, m (room paper: a few millimetres)."""
-    growth: float = 0.0016
+    growth: float = number(0.0016, "1/m", least=0.0)
     """Its growth with the square of the distance, 1/m (room paper: 4 cm at the far
     end of a range of 5 m)."""
-
-    def validate(self) -> None:
-        """Checks every field.
-
-        Raises:
-            ValueError: "field: reason, got x" for the first field that is wrong.
-        """
-        require_at_least("near", self.near, 0.0, "m")
-        require_at_least("growth", self.growth, 0.0, "1/m")
 
     def deviation(self, distance: Vector) -> Vector:
         """Standard deviation along the ray, m, at distances (...), m."""

@@ -11,7 +11,7 @@ from pydrake.math import RigidTransform
 from pydrake.perception import PointCloud
 from pydrake.systems.framework import BasicVector, Context, LeafSystem, State
 
-from models.validation import require_at_least, require_positive
+from models.validation import Parameters, number
 from systems.ports import Vector, eval_abstract, eval_vector, set_vector
 from systems.sensing.scan_geometry import line_to_points, tilt_pose
 from systems.timing import timed
@@ -19,26 +19,26 @@ from systems.values import LaserScan, Value
 
 
 @dataclass(kw_only=True)
-class ScanAssemblerParams:
+class ScanAssemblerParams(Parameters):
     """How lines become a cloud."""
 
-    margin: float = 0.03
+    margin: float = number(0.03, "m", least=0.0, most=1.0)
     """How far the boxes about the robot's own bodies are inflated, m: six standard
     deviations of the scanner's noise."""
-    period: float = 0.025
+    period: float = number(
+        0.025, "s", least=1e-3, most=10.0, shared="sensors.lidar.line_period"
+    )
     """How often it looks for a new line, s; the scanner's line period."""
-    offset: float = 0.001
+    offset: float = number(0.001, "s", above=0.0)
     """How long after each line it looks, s; the sensor's pose is taken then."""
 
     def validate(self) -> None:
-        """Checks every field.
+        """Checks every field, and those that concern each other.
 
         Raises:
             ValueError: "field: reason, got x" for the first field that is wrong.
         """
-        require_at_least("margin", self.margin, 0.0, "m")
-        require_positive("period", self.period, "s")
-        require_positive("offset", self.offset, "s")
+        super().validate()
         if not self.offset < self.period:
             raise ValueError(
                 f"offset: must be less than the period, got {self.offset:g} s"

@@ -11,6 +11,7 @@ import numpy as np
 import shapely  # type: ignore[import-untyped]
 from scipy.cluster.hierarchy import fcluster, linkage
 
+from models.validation import Parameters, number
 from systems.perception.planes import FittedPlane, Patch, bound_patch, fit_plane
 from systems.ports import Vector
 
@@ -23,33 +24,47 @@ LEVEL_SLOPE = 0.09
 
 
 @dataclass(kw_only=True)
-class StairLimits:
+class StairLimits(Parameters):
     """What passes for a staircase."""
 
-    min_depth: float = 0.10
+    min_depth: float = number(0.10, "m", above=0.0)
     """Least depth of a tread, m: less than any sole needs, so that a tread that is
     seen in part still counts."""
-    max_depth: float = 0.45
+    max_depth: float = number(0.45, "m", above=0.0)
     """Largest depth of a tread, m: building codes stop at 0.36; a landing has more."""
-    min_width: float = 0.30
+    min_width: float = number(0.30, "m", above=0.0)
     """Least width of a tread, m: two feet side by side."""
-    max_width: float = 3.0
+    max_width: float = number(3.0, "m", above=0.0)
     """Largest width of a tread, m."""
-    min_rise: float = 0.05
+    min_rise: float = number(0.05, "m", above=0.0)
     """Least rise from a tread to the next, m."""
-    max_rise: float = 0.50
+    max_rise: float = number(0.50, "m", above=0.0)
     """Largest rise from a tread to the next, m. Twice what the paper climbs (0.24), so
     that a staircase too steep to climb is seen for what it is."""
-    max_turn: float = 0.35
+    max_turn: float = number(0.35, "rad", least=0.0)
     """Most that the way to the next tread departs from a tread's own axis, rad."""
-    depth_tolerance: float = 0.06
+    depth_tolerance: float = number(0.06, least=0.0, most=1.0)
     """How much the depth of a last tread whose end was not seen may depart from that
     of the others, as a part of it: else the end is that of the view."""
-    max_gap: float = 0.30
+    max_gap: float = number(0.30, "m", least=0.0)
     """Largest gap between parts of one tread, m: the shadow of a leg."""
-    size_tolerance: float = 0.1
+    size_tolerance: float = number(0.1, "m", above=0.0)
     """Distance below which two sizes (dx, dy) are of one cluster, m; the paper names
     the clustering, not its distance."""
+
+    def validate(self) -> None:
+        """Checks every field, and those that concern each other.
+
+        Raises:
+            ValueError: "field: reason, got x" for the first field that is wrong.
+        """
+        super().validate()
+        for name in ("depth", "width", "rise"):
+            least, most = getattr(self, f"min_{name}"), getattr(self, f"max_{name}")
+            if not least < most:
+                raise ValueError(
+                    f"max_{name}: must exceed min_{name}, {least:g} m, got {most:g} m"
+                )
 
 
 def largest_size_cluster(extents: Vector, tolerance: float) -> list[int]:

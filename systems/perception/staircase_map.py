@@ -1,6 +1,6 @@
 """What is known of a staircase, scan after scan."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -13,14 +13,16 @@ from pydrake.systems.framework import (
     State,
 )
 
+from models.validation import require_at_least
 from systems.perception.staircase_merging import StaircaseMapParams, merge_staircase
 from systems.ports import eval_abstract, eval_vector, set_vector
+from systems.thinking import Thought, ready_time
 from systems.timing import timed
-from systems.values import PlaneSegmentation, Staircase, Value
+from systems.values import PlaneSegmentation, Staircase
 
 
 @dataclass(frozen=True, eq=False)
-class _Merged(Value):
+class _Merged(Thought):
     """The state: the staircase, how many sweeps are in it, and the last of them."""
 
     staircase: Staircase = field(default_factory=Staircase)
@@ -33,6 +35,9 @@ class StaircaseMap(LeafSystem):
 
     Stair paper (Zhang, Caron, Nakamura 2016), Sec. 4.3: the higher steps "will be fully
     reconstructed after the robot stepping on the lower ones".
+
+    Segmenting and merging take time: what a sweep says is known `latency` after it was
+    finished; a sweep that is finished meanwhile waits.
 
     .. pydrake_system::
 
@@ -49,19 +54,25 @@ class StaircaseMap(LeafSystem):
     - `sweep` (input): how many sweeps are finished, (1,).
     - `staircase`: Staircase, what all merged sweeps say, in W.
     - `segmentation` (output): the one that was merged last; costs nothing to look at.
-    - `sweep` (output): how many sweeps were finished when it was last merged, (1,).
+    - `sweep` (output): how many sweeps were finished when the one that was merged last
+      was, (1,).
     """
 
-    def __init__(self, params: StaircaseMapParams | None = None) -> None:
+    def __init__(
+        self, params: StaircaseMapParams | None = None, latency: float = 0.0
+    ) -> None:
         """Declares ports, state and the update.
 
         Args:
             params: parameters; None for the defaults.
+            latency: from a finished sweep to what it says, s.
 
         Raises:
             ValueError: a parameter makes no sense.
         """
         super().__init__()
+        require_at_least("latency", latency, 0.0, "s")
+        self._latency = latency
         self._params = params or StaircaseMapParams()
         self._params.validate()
         self._segmentation = self.DeclareAbstractInputPort(
@@ -95,13 +106,17 @@ class StaircaseMap(LeafSystem):
         )
 
     def _merge(self, context: Context, state: State) -> EventStatus:
-        was = self._get(context)
+        was, time = self._get(context), context.get_time()
+        now = was.at(time)
         sweeps = int(eval_vector(self._sweep, context)[0])
-        if not sweeps > was.sweeps:
+        if now.coming is None and sweeps > now.sweeps:
+            found = eval_abstract(self._segmentation, context, PlaneSegmentation)
+            seen = replace(found, sensed_at=time)
+            known = merge_staircase(now.staircase, seen, self._params)
+            ready = ready_time(time, self._latency, self._params.period)
+            now = now.until(ready, _Merged(known, seen, sweeps)).at(time)
+        if now is was:
             return EventStatus.DidNothing()
-        seen = eval_abstract(self._segmentation, context, PlaneSegmentation)
-        known = merge_staircase(was.staircase, seen, self._params)
-        now = _Merged(known, seen, sweeps)
         state.get_mutable_abstract_state(int(self._state)).set_value(now)
         return EventStatus.Succeeded()
 

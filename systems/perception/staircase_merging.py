@@ -10,51 +10,31 @@ import numpy as np
 from pydrake.math import RigidTransform, RotationMatrix
 from scipy.spatial import ConvexHull
 
+from models.validation import Parameters, number
 from systems.perception.planes import plane_axes
 from systems.ports import Vector
 from systems.values import PlaneSegment, PlaneSegmentation, Staircase
 
 
 @dataclass(kw_only=True)
-class StaircaseMapParams:
+class StaircaseMapParams(Parameters):
     """When a plane of a new scan is one that is known already."""
 
-    height_tolerance: float = 0.04
+    height_tolerance: float = number(0.04, "m", above=0.0)
     """Most that the heights differ, m: less than the least rise, more than the drift
     of a robot's own position over a few steps."""
-    edge_tolerance: float = 0.02
+    edge_tolerance: float = number(0.02, "m", above=0.0)
     """Edges this near are two measurements of one edge and are averaged, m; beyond it
     the outer one counts, for hidden parts make a tread look smaller, never larger."""
-    least_overlap: float = 0.3
+    least_overlap: float = number(0.3, above=0.0, most=1.0)
     """Least overlap of two rectangles of one tread, as part of the smaller one."""
-    max_turn: float = 0.2
+    max_turn: float = number(0.2, "rad", above=0.0)
     """Most that the directions of two views of one staircase differ, rad."""
-    depth_tolerance: float = 0.3
+    depth_tolerance: float = number(0.3, above=0.0)
     """How much deeper than the deepest known tread a new one may be, as a part of it:
     what is deeper is a landing. One that is seen in part may well be less deep."""
-    period: float = 0.025
+    period: float = number(0.025, "s", least=1e-3, most=10.0)
     """How often the map looks for a new sweep, s: the time of one scan line."""
-
-    def validate(self) -> None:
-        """Checks the values.
-
-        Raises:
-            ValueError: a field has a value that makes no sense.
-        """
-        for name in (
-            "height_tolerance",
-            "edge_tolerance",
-            "max_turn",
-            "depth_tolerance",
-            "period",
-        ):
-            value = getattr(self, name)
-            if not (np.isfinite(value) and value > 0.0):
-                raise ValueError(f"{name}: must be positive, got {value}")
-        if not 0.0 < self.least_overlap <= 1.0:
-            raise ValueError(
-                f"least_overlap: must be in (0, 1], got {self.least_overlap}"
-            )
 
 
 def merge_staircase(

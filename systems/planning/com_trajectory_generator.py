@@ -28,7 +28,12 @@ ComTracker: TypeAlias = Callable[[Vector, Vector], ComMotion]
 """From a ZMP reference, (n, 2), m, and height factors, (n,), s^2, to the motion."""
 
 
-def com_tracker(form: str, params: ZmpPreviewParams, start: Vector) -> ComTracker:
+def com_tracker(
+    form: str,
+    params: ZmpPreviewParams,
+    start: Vector,
+    weight: Vector | None = None,
+) -> ComTracker:
     """CWTG1 in one of its forms.
 
     Args:
@@ -36,13 +41,15 @@ def com_tracker(form: str, params: ZmpPreviewParams, start: Vector) -> ComTracke
             do not look at the height factors.
         params: period, height and weights.
         start: where the CoM rests, (2,), m.
+        weight: how much the ZMP error counts at each tick, (n,), for "exact"; 1 if
+            None.
 
     Raises:
         ValueError: there is no such form, or a parameter is out of range.
     """
     if form == "exact":
         return lambda zmp, factor: generate_varying_height(
-            zmp, factor, params, rest_state(start)
+            zmp, factor, params, rest_state(start), weight
         )
     if form == "preview":
         gains = preview_gains(params)

@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 
+from models.self_distance import SelfDistance
 from systems.planning.crossing_course import Course
 from systems.planning.crossing_feet import crossing_rows, section_of
 from systems.planning.crossing_report import (
@@ -19,6 +20,11 @@ from systems.planning.whole_body_plan import BodyMotion
 from systems.ports import Vector
 from systems.values import FEET, ContactPhase
 
+SELF_TICK = 0.03
+"""Between the postures of a crossing in which the robot's own bodies are held against
+each other, s."""
+SELF_RANGE = 0.03
+"""Bodies of the robot farther from each other than this are not looked at, m."""
 TORQUE_TICK = 0.1
 """Between the postures of a crossing whose torques are looked at, s."""
 
@@ -58,6 +64,7 @@ def appraise(
     if course.mode == "dynamic":
         torque, torque_joint = _torque(course, motion, contacts)
     limit, limit_joint = _limit(course, motion)
+    nearest = _self_distance(course, motion)
     return CrossingReport(
         gap=float(gaps.min()) if gaps.size else float("inf"),
         short=float(motion.short.max()),
@@ -77,6 +84,8 @@ def appraise(
         torque_joint=torque_joint,
         limit_distance=limit,
         limit_joint=limit_joint,
+        self_distance=nearest.distance,
+        self_bodies=nearest.bodies,
         curves=BodyCurves(time, motion.waist, zmps[0], zmps[-1]),
     )
 
@@ -91,6 +100,18 @@ def _limit(course: Course, motion: BodyMotion) -> tuple[float, str]:
     side, joint = np.unravel_index(int(least.argmin()), least.shape)
     names = course.body.robot.leg_joints[FEET[int(side)]]
     return float(least[side, joint]), names[int(joint)]
+
+
+def _self_distance(course: Course, motion: BodyMotion) -> SelfDistance:
+    """The two bodies of the robot that come nearest to each other in a crossing."""
+    window = crossing_rows(course.time[course.rows], course.steps)
+    looked = motion.q[window][:: max(1, round(SELF_TICK / course.tick))]
+    meter = course.body.meter
+    return min(
+        (meter.nearest(q, SELF_RANGE) for q in looked),
+        key=lambda found: found.distance,
+        default=SelfDistance(float("inf"), ("", "")),
+    )
 
 
 def _torque(course: Course, motion: BodyMotion, contacts: Vector) -> tuple[float, str]:
@@ -122,7 +143,12 @@ def static_balance(
     looked = looked[:: max(1, round(TORQUE_TICK / course.crossing.sampling))]
     at = course.rows[looked]
     share, joint, row = worst_torque(
-        course.body, course.context, motion.q[looked], poses[at], contacts[at]
+        course.body,
+        course.context,
+        motion.q[looked],
+        poses[at],
+        contacts[at],
+        quasi.friction,
     )
     margin = least_margin(
         phases,

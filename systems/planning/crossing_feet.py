@@ -17,6 +17,7 @@ from systems.planning.feet_adaptor import (
 from systems.planning.foot_trajectory_generator import Crossing, foot_trajectory
 from systems.planning.leg_clearance import Section
 from systems.planning.leg_model import LegModel
+from systems.planning.swing_trajectory import inward_bow
 from systems.ports import Vector
 from systems.values import FEET
 
@@ -86,7 +87,7 @@ def feet_along(
             u = share_of(step, time[inside])
             left = across(obstacles[step.obstacle].yaw + np.pi / 2.0)
             inward = crossing.inward if step.foot == "right" else -crossing.inward
-            poses[inside, i, :2] += np.outer(inward * 16.0 * (u * (1.0 - u)) ** 2, left)
+            poses[inside, i, :2] += np.outer(inward * inward_bow(u), left)
         if follows and repairs.path.size:
             shares = np.linspace(0.0, 1.0, len(repairs.path))
             push = np.interp(share_of(step, time[inside]), shares, repairs.path)

@@ -21,7 +21,7 @@ from systems.planning.crossing_posture import arm_swing, waist_rpy
 from systems.planning.crossing_report import CrossingMotion
 from systems.planning.crossing_timing import time_steps, zmp_reference
 from systems.planning.motion_params import MotionPlannerParams
-from systems.planning.step_timing import contact_phases
+from systems.planning.step_timing import contact_phases, zmp_weight
 from systems.planning.whole_body_plan import BodyMotion, WholeBody, waist_over
 from systems.ports import Vector
 from systems.values import FEET, Footstep
@@ -67,6 +67,9 @@ def plan_crossing(
     n = round(end / walking.period) + 1
     time: Vector = np.arange(n, dtype=np.float64) * walking.period
     zmp = zmp_reference(time, steps, feet, com, end, walking, crossing, mode)
+    # Slowly the CoM goes with the ZMP all the way, and Kajita's cart knows no weight.
+    free = mode == "dynamic" and crossing.cwtg1 == "exact"
+    weight = zmp_weight(time, end, walking) if free else None
     rpy = waist_rpy(time, steps, feet, crossing, mode)
     arms = arm_swing(time, steps, crossing, mode)
     course = Course(
@@ -82,7 +85,7 @@ def plan_crossing(
         keys,
         walking,
         crossing,
-        com_tracker(crossing.cwtg1, preview, com[:2]),
+        com_tracker(crossing.cwtg1, preview, com[:2], weight),
         body,
         context,
         mode,
@@ -101,7 +104,7 @@ def plan_crossing(
         stages = 0
     for _ in range(stages):
         moved = filter_motion_varying_height(
-            moved, zmp[:, :2], course.at_every_tick(zmps[-1]), factor, preview
+            moved, zmp[:, :2], course.at_every_tick(zmps[-1]), factor, preview, weight
         )
         motion = course.body_along(moved, height, repairs, rows, _offset(motion))
         zmps.append(course.multibody_zmp(motion))

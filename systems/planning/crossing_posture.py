@@ -10,6 +10,8 @@ from systems.obstacle_values import KeyConfiguration
 from systems.planning.crossing_params import CrossingParams, Mode
 from systems.planning.crossing_timing import CrossingStep
 from systems.planning.feet_adaptor import Repairs
+from systems.planning.foothold import SIDE
+from systems.planning.swing_trajectory import inward_bow
 from systems.ports import Vector
 from systems.values import FEET
 
@@ -102,11 +104,14 @@ def waist_rpy(
 ) -> Vector:
     """Yaw midway between the feet, and what a crossing adds (Sec. III-C3), (n, 3).
 
+    The paper turns the waist in yaw; that it also rolls, to raise the hip of the foot
+    that passes the obstacle, is ours: this robot's thigh would else meet its pelvis.
+
     Args:
         time: (n,), s.
         steps: of the motion.
         feet: sole poses at its start, (2, 6).
-        crossing: how far the pelvis leans and turns.
+        crossing: how far the pelvis leans, turns and rolls.
         mode: see `straddling`.
     """
     yaws = np.tile(feet[:, 5], (len(time), 1))
@@ -121,6 +126,8 @@ def waist_rpy(
             # Towards the side on which the foot that leads is not: its hip goes ahead.
             leader = step.foot == "right" if step.leads else step.foot == "left"
             blend = third_order(share_of(step, time))
+            u = np.clip(share_of(step, time), 0.0, 1.0)
+            rpy[:, 0] += SIDE[step.foot] * crossing.waist_roll * inward_bow(u)
             rpy[:, 2] += (
                 (1.0 if leader else -1.0)
                 * crossing.waist_yaw

@@ -71,6 +71,10 @@ class CrossingReport(Value):
     """Least distance of a leg's joint to its limits while the robot crosses, rad."""
     limit_joint: str = ""
     """Which joint's."""
+    self_distance: float = float("inf")
+    """Least distance of two bodies of the robot while it crosses, m."""
+    self_bodies: tuple[str, str] = ("", "")
+    """Which two."""
     balance: StaticBalance | None = None
     """Of a quasi-static motion; None of a dynamic one."""
     curves: BodyCurves | None = None
@@ -99,6 +103,12 @@ def refusal_of(report: CrossingReport, crossing: CrossingParams) -> str:
         return (
             f"{what}: a leg comes within {1e3 * report.gap:.0f} mm of it, less "
             f"than {1e3 * crossing.least_gap:.0f} mm, after all repairs"
+        )
+    if report.self_distance < crossing.least_self_distance:
+        return (
+            f"{what}: {' and '.join(report.self_bodies)} come within "
+            f"{1e3 * report.self_distance:.0f} mm of each other, less than "
+            f"{1e3 * crossing.least_self_distance:.0f} mm"
         )
     if report.short > crossing.most_short:
         return f"{what}: a leg is {1e3 * report.short:.0f} mm too short"

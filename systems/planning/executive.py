@@ -9,36 +9,28 @@ import numpy as np
 from pydrake.common.value import AbstractValue
 from pydrake.systems.framework import BasicVector, Context, LeafSystem
 
-from models.validation import require_at_least, require_positive
+from models.validation import Parameters, number, require_at_least
 from systems.planning.decision_state import declare_decisions
 from systems.ports import eval_abstract, eval_vector, set_vector
+from systems.thinking import Thought, ready_time
 from systems.timing import timed
-from systems.values import FootstepPlan, MotionPlan, TaskStatus, Value
+from systems.values import FootstepPlan, MotionPlan, TaskStatus
 
-Activity: TypeAlias = Literal["settle", "scan", "move", "stand"]
+Activity: TypeAlias = Literal["settle", "scan", "plan", "move", "stand"]
 
 
 @dataclass(kw_only=True)
-class ExecutiveParams:
+class ExecutiveParams(Parameters):
     """When it decides."""
 
-    period: float = 0.025
+    period: float = number(0.025, "s", least=1e-3, most=10.0)
     """Between decisions, s."""
-    settle_time: float = 0.3
+    settle_time: float = number(0.3, "s", least=0.0)
     """Standing still before a scan, s."""
-
-    def validate(self) -> None:
-        """Checks every field.
-
-        Raises:
-            ValueError: "field: reason, got x" for the first field that is wrong.
-        """
-        require_positive("period", self.period, "s")
-        require_at_least("settle_time", self.settle_time, 0.0, "s")
 
 
 @dataclass(frozen=True, eq=False)
-class Decision(Value):
+class Decision(Thought):
     """What the executive has decided, and what that rests on."""
 
     motion_plan: MotionPlan
@@ -49,7 +41,7 @@ class Decision(Value):
     since: float = 0.0
     """When this activity began, s."""
     sweeps: int = 0
-    """Sweeps of which the result has been used."""
+    """Sweeps of which the result has been used or is being planned on."""
     status: TaskStatus = dataclasses.field(default_factory=TaskStatus)
 
 
@@ -60,6 +52,7 @@ def decide(
     plan_footsteps: Callable[[], FootstepPlan],
     plan_motion: Callable[[], MotionPlan],
     params: ExecutiveParams,
+    latency: float = 0.0,
 ) -> Decision:
     """One decision.
 
@@ -70,6 +63,8 @@ def decide(
         plan_footsteps: plans on what is known now; called once a scan.
         plan_motion: plans the motion along those footsteps; called once a plan.
         params: see there.
+        latency: how long planning takes, s. What is planned rests on what is known when
+            it begins, and the robot stands still until it is there.
 
     Returns:
         The decision; `before` itself where nothing changes.
@@ -81,20 +76,35 @@ def decide(
     if before.activity == "scan":
         if sweeps <= before.sweeps:
             return before
-        footsteps = plan_footsteps()
-        known = dataclasses.replace(before, sweeps=sweeps, footstep_plan=footsteps)
-        if footsteps.status != "planned":
-            return _turn_to(known, "stand", time, footsteps.status, footsteps.reason)
-        plan = plan_motion().starting_at(time)
-        if plan.reason:
-            return _turn_to(known, "stand", time, "infeasible", plan.reason)
-        return _turn_to(dataclasses.replace(known, motion_plan=plan), "move", time)
+        planning = dataclasses.replace(before, sweeps=sweeps)
+        ready = ready_time(time, latency, params.period)
+        planned = _plan(planning, ready, plan_footsteps, plan_motion)
+        return _turn_to(planning, "plan", time).until(ready, planned).at(time)
+    if before.activity == "plan":
+        return before.at(time)
     if before.activity == "move":
         plan = before.motion_plan
         if time < plan.start_time + plan.duration:
             return before
         return _turn_to(before, "settle", time)
     return before
+
+
+def _plan(
+    before: Decision,
+    ready: float,
+    plan_footsteps: Callable[[], FootstepPlan],
+    plan_motion: Callable[[], MotionPlan],
+) -> Decision:
+    """What is to be done from `ready` on, s."""
+    footsteps = plan_footsteps()
+    known = dataclasses.replace(before, footstep_plan=footsteps)
+    if footsteps.status != "planned":
+        return _turn_to(known, "stand", ready, footsteps.status, footsteps.reason)
+    plan = plan_motion().starting_at(ready)
+    if plan.reason:
+        return _turn_to(known, "stand", ready, "infeasible", plan.reason)
+    return _turn_to(dataclasses.replace(known, motion_plan=plan), "move", ready)
 
 
 def _turn_to(
@@ -110,6 +120,8 @@ def _turn_to(
 
 class Executive(LeafSystem):
     """Scans, plans on what was seen, moves, and scans again until nothing is left.
+
+    Planning takes time: the robot stands meanwhile, and a plan begins when it is there.
 
     .. pydrake_system::
 
@@ -135,19 +147,23 @@ class Executive(LeafSystem):
     - `status`: how the task is going, abstract TaskStatus.
     """
 
-    def __init__(self, params: ExecutiveParams, stand: MotionPlan) -> None:
+    def __init__(
+        self, params: ExecutiveParams, stand: MotionPlan, latency: float = 0.0
+    ) -> None:
         """Declares ports and the update.
 
         Args:
             params: see there.
             stand: the plan of the default context, which stands.
+            latency: how long planning takes, s.
 
         Raises:
             ValueError: a parameter is out of range.
         """
         super().__init__()
         params.validate()
-        self._params = params
+        require_at_least("latency", latency, 0.0, "s")
+        self._params, self._latency = params, latency
         self._sweep = self.DeclareVectorInputPort("sweep", 1)
         self._footsteps = self.DeclareAbstractInputPort(
             "footstep_plan", AbstractValue.Make(FootstepPlan())
@@ -181,4 +197,5 @@ class Executive(LeafSystem):
             lambda: eval_abstract(self._footsteps, context, FootstepPlan),
             lambda: eval_abstract(self._motion, context, MotionPlan),
             self._params,
+            self._latency,
         )

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from models.validation import require_at_least, require_positive
+from models.validation import Parameters, number
 from systems.obstacle_values import Feasibility, KeyConfiguration
 from systems.planning.leg_clearance import Section, outline_gap
 from systems.planning.leg_model import LegModel, both_leg_angles, outline_points
@@ -29,48 +29,30 @@ BATCH = 4
 
 
 @dataclass(kw_only=True)
-class FeasibilityParams:
+class FeasibilityParams(Parameters):
     """What the feasibility unit searches and with which margins."""
 
-    s_w: float = 0.045
+    s_w: float = number(0.045, "m", least=0.0)
     """Margin on either side of the obstacle, m. The paper has 3 cm; what the eyes and
     the feet err is added, so that 3 cm remain to the true one."""
-    s_h: float = 0.045
+    s_h: float = number(0.045, "m", least=0.0)
     """Margin above the obstacle, m; likewise."""
-    delta_ds: float = 0.5
+    delta_ds: float = number(0.5, above=0.0, below=1.0)
     """delta_DS of Eq. 22: share of the step length at which the waist is."""
-    waist_travel: float = 0.08
+    waist_travel: float = number(0.08, "m", least=0.0)
     """How far before and behind X_hds the waist is while both feet are down, m: the
     double support is short, but not nothing."""
-    step_increment: float = 0.01
+    step_increment: float = number(0.01, "m", least=1e-3)
     """By which the step length is raised, m."""
-    height_increment: float = 0.01
+    height_increment: float = number(0.01, "m", least=1e-3)
     """By which the waist is lowered, m."""
-    max_step_length: float = 0.56
+    max_step_length: float = number(0.56, "m", above=0.0, most=10.0)
     """Longest step, m: beyond it the swing asks more speed and torque than there is."""
-    lowest_waist: float = 0.62
+    lowest_waist: float = number(0.62, "m", above=0.0)
     """Lowest waist, m: below it the knees ask for more torque than there is."""
-    joint_margin: float = 0.05
+    joint_margin: float = number(0.05, "rad", least=0.0)
     """Kept from the joint limits, rad, as the motion about the key configuration and
     its tracking need some."""
-
-    def validate(self) -> None:
-        """Checks every field.
-
-        Raises:
-            ValueError: "field: reason, got x" for the first field that is wrong.
-        """
-        for name in ("s_w", "s_h", "joint_margin", "waist_travel"):
-            require_at_least(name, getattr(self, name), 0.0)
-        for name in (
-            "step_increment",
-            "height_increment",
-            "max_step_length",
-            "lowest_waist",
-        ):
-            require_positive(name, getattr(self, name), "m")
-        if not 0.0 < self.delta_ds < 1.0:
-            raise ValueError(f"delta_ds: must lie in (0, 1), got {self.delta_ds:g}")
 
 
 class Checked(NamedTuple):

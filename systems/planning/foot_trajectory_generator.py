@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from models.validation import require_at_least, require_one_of
+from models.validation import RIGHT_ANGLE, Parameters, choice, number
 from systems.planning.leg_clearance import Section
 from systems.planning.leg_model import LegOutline
 from systems.ports import Vector
@@ -19,50 +19,42 @@ PROFILES = ("splines", "polynomial")
 
 
 @dataclass(kw_only=True)
-class FootTrajectoryParams:
+class FootTrajectoryParams(Parameters):
     """Control points of the foot's path, as shares of its duration."""
 
-    profile: str = "splines"
+    profile: str = choice("splines", PROFILES)
     """"splines" (the paper's), or "polynomial": height of fourth order, horizontal way
     of third, what the paper compares with."""
-    apex: float = 0.02
+    apex: float = number(0.02, "m", least=0.0)
     """Height of the foot's lowest point over the inflated obstacle, m."""
-    level_apex: float = 0.05
+    level_apex: float = number(0.05, "m", least=0.0)
     """Height of the foot's lowest point over level ground, m."""
-    retraction: float = 0.03
+    retraction: float = number(0.03, "m", least=0.0)
     """How far the foot draws back from where it stood while it rises, m."""
-    lifted: float = 0.34
+    lifted: float = number(0.34, above=0.0, below=1.0)
     """When the foot is above the obstacle, its toe still before it."""
-    lowering: float = 0.70
+    lowering: float = number(0.70, above=0.0, below=1.0)
     """When its heel is beyond the obstacle and it goes down."""
-    lead_pitch: float = -0.10
+    lead_pitch: float = number(-0.10, "rad", above=-RIGHT_ANGLE, below=RIGHT_ANGLE)
     """Pitch of the first foot over the obstacle, rad; negative lifts the toes."""
-    trail_pitch: float = 0.45
+    trail_pitch: float = number(0.45, "rad", above=-RIGHT_ANGLE, below=RIGHT_ANGLE)
     """Pitch of the second foot while it rises, rad; positive lifts the heel."""
 
-    over_share: float = 0.6
+    over_share: float = number(0.6, least=0.0, most=1.0)
     """Share of that pitch that is left in the middle over the obstacle."""
 
     def validate(self) -> None:
-        """Checks every field.
+        """Checks every field, and those that concern each other.
 
         Raises:
             ValueError: "field: reason, got x" for the first field that is wrong.
         """
-        require_one_of("profile", self.profile, PROFILES)
-        for name in ("apex", "level_apex", "retraction"):
-            require_at_least(name, getattr(self, name), 0.0, "m")
-        if not 0.0 < self.lifted < self.lowering < 1.0:
+        super().validate()
+        if not self.lifted < self.lowering:
             raise ValueError(
-                "lifted: must lie between 0 and lowering, which is below 1, got "
-                f"{self.lifted:g} and {self.lowering:g}"
+                f"lifted: must be less than lowering, got {self.lifted:g} and "
+                f"{self.lowering:g}"
             )
-        for name in ("lead_pitch", "trail_pitch"):
-            if not abs(getattr(self, name)) < np.pi / 2.0:
-                raise ValueError(
-                    f"{name}: must be less than a right angle, got "
-                    f"{getattr(self, name):g}"
-                )
 
 
 @dataclass(frozen=True)

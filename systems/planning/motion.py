@@ -13,6 +13,7 @@ import numpy as np
 from models.robot import RobotModel
 from systems.balance.zmp_preview import GRAVITY, ZmpPreviewParams, rest_state
 from systems.balance.zmp_tracking import generate_varying_height, height_factor
+from systems.planning.foothold import SIDE
 from systems.planning.footstep_planner import pose_from_xyz_rpy
 from systems.planning.motion_params import MotionPlannerParams
 from systems.planning.step_timing import (
@@ -24,8 +25,9 @@ from systems.planning.step_timing import (
     stance_zmp,
     step_times,
     transfers,
+    zmp_weight,
 )
-from systems.planning.swing_trajectory import quintic, swing_trajectory
+from systems.planning.swing_trajectory import inward_bow, quintic, swing_trajectory
 from systems.planning.toe_off import heading, lift_heel, toe_off_pitch
 from systems.ports import Vector
 from systems.values import FEET, Footstep, MotionPlan, other_foot
@@ -104,11 +106,16 @@ def plan_motion(
     rate = np.gradient(height, params.period)
     acceleration = np.gradient(rate, params.period)
     factor = height_factor(height, zmp[:, 2], acceleration)
-    motion = generate_varying_height(zmp[:, :2], factor, preview, rest_state(com[:2]))
+    motion = generate_varying_height(
+        zmp[:, :2],
+        factor,
+        preview,
+        rest_state(com[:2]),
+        zmp_weight(time, end, params),
+    )
     zmp[:, :2] = motion.zmp
     path = np.column_stack([motion.com, height])
     poses, contacts, lengths = _feet(time, steps, feet, path, edges, params, robot)
-    climbs = any(step.climbs for step in steps)
     return MotionPlan(
         start_time=0.0,
         period=params.period,
@@ -122,7 +129,7 @@ def plan_motion(
         com_acceleration=np.column_stack([motion.acceleration, acceleration]),
         zmp=zmp,
         cart_zmp=motion.com - preview.com_height / GRAVITY * motion.acceleration,
-        waist=_waist(time, poses, end, params.lean if climbs else 0.0, params),
+        waist=_waist(time, steps, poses, end, params),
     )
 
 
@@ -220,6 +227,11 @@ def _feet(
             params.swing,
         )
         poses[rows, i] = np.hstack([way.positions, way.rpy])
+        if step.climbs:
+            u = np.linspace(0.0, 1.0, land + 1 - lift)
+            ahead = heading(step.end[5])
+            inward = np.array([-ahead[1], ahead[0]]) * -SIDE[step.foot]
+            poses[rows, i, :2] += np.outer(params.climb_inward * inward_bow(u), inward)
         poses[land + 1 :, i] = step.end
         contacts[lift:land, i] = 0.0
         lengths[lift:land, i] = sole.length
@@ -227,11 +239,28 @@ def _feet(
 
 
 def _waist(
-    time: Vector, poses: Vector, end: float, lean: float, params: MotionPlannerParams
+    time: Vector,
+    steps: tuple[Step, ...],
+    poses: Vector,
+    end: float,
+    params: MotionPlannerParams,
 ) -> Vector:
-    """Upright at both ends, leaning forward between; yaw midway between the feet."""
+    """Orientation of the pelvis along a motion, roll, pitch, yaw, (n, 3), rad.
+
+    Upright at both ends, leaning forward between where a step climbs, the swinging side
+    of a climbing step raised; yaw midway between the feet.
+    """
     rpy = np.zeros((len(time), 3))
-    blend = quintic(time / params.lead_in)
-    rpy[:, 1] = lean * (blend - quintic((time - end) / params.lead_out + 1.0))
+    climbs = any(step.climbs for step in steps)
+    if climbs:
+        keys = [(0.0, np.zeros(1))]
+        for step in steps:
+            raised = SIDE[step.foot] * params.climb_roll if step.climbs else 0.0
+            keys += [(step.lift, np.array([raised])), (step.land, np.array([raised]))]
+        keys.append((end, np.zeros(1)))
+        rpy[:, 0] = along_keys(time, keys, eased=True)[:, 0]
+        blend = quintic(time / params.lead_in)
+        blend -= quintic((time - end) / params.lead_out + 1.0)
+        rpy[:, 1] = params.lean * blend
     rpy[:, 2] = poses[:, :, 5].mean(axis=1)
     return rpy

@@ -174,6 +174,16 @@ def violation(
                 f"{close:.1f} s, less than {choice.limb_clearance:.3f} m",
             )
         )
+    nearest, when = prediction.worst_self_distance()
+    if nearest.distance < choice.self_clearance:
+        found.append(
+            (
+                1.0 + (choice.self_clearance - nearest.distance) / GAP_SCALE,
+                f"clearance: {' and '.join(nearest.bodies)} would come within "
+                f"{nearest.distance:.3f} m of each other at {when:.1f} s, less than "
+                f"{choice.self_clearance:.3f} m",
+            )
+        )
     share, joint, when = prediction.worst_torque(window)
     if share > choice.torque_share:
         limit = dict(zip(prediction.joints, prediction.effort_limits, strict=True))[

@@ -15,6 +15,7 @@ from pydrake.systems.framework import Context
 
 from models.collision_hulls import CollisionHull
 from models.robot import RobotModel
+from models.self_distance import SelfDistance, SelfDistanceMeter
 from systems.balance.wrench_distribution import (
     DistributionParams,
     TorqueMap,
@@ -35,6 +36,8 @@ TICK = 0.02
 """Between the postures that are looked at, s."""
 SETTLING_TICKS = 150
 """Ticks in which the IK comes to rest on the plan's first row."""
+SELF_RANGE = 0.02
+"""Bodies of the robot farther from each other than this are not looked at, m."""
 NORMALS = np.linspace(0.0, 0.5 * np.pi, 31)
 """Directions in which a limb is told from a step, from level to straight up, rad."""
 
@@ -63,6 +66,8 @@ class MotionPrediction:
     into a step; inf without edges."""
     limbs: tuple[str, ...]
     """Names of those bodies."""
+    self_distances: tuple[SelfDistance, ...]
+    """The two bodies of the robot that are nearest to each other, at each moment."""
 
     def worst_torque(self, window: float = 0.0) -> tuple[float, str, float]:
         """The largest share of an effort limit, which joint's, and when, s.
@@ -79,6 +84,13 @@ class MotionPrediction:
         row, column = np.unravel_index(int(shares.argmax()), shares.shape)
         joint = self.joints[int(column)]
         return float(shares[row, column]), joint, float(self.time[row])
+
+    def worst_self_distance(self) -> tuple[SelfDistance, float]:
+        """The least distance between two bodies of the robot, and when, s."""
+        worst = min(
+            range(len(self.time)), key=lambda k: self.self_distances[k].distance
+        )
+        return self.self_distances[worst], float(self.time[worst])
 
     def worst_gap(self) -> tuple[float, str, float]:
         """The least gap, m, which limb's, and when, s."""
@@ -100,6 +112,7 @@ class MotionPredictor:
         ik: WholeBodyIk,
         distribution: DistributionParams,
         hulls: Sequence[CollisionHull],
+        meter: SelfDistanceMeter,
     ) -> None:
         """Gathers frames, limits and limbs.
 
@@ -110,9 +123,10 @@ class MotionPredictor:
             distribution: how the feet will share the load.
             hulls: of the bodies; the feet's are not looked at, as the swing keeps
                 them off the edges.
+            meter: of the robot's own collision geometry.
         """
         self._plant, self._robot, self._ik = plant, robot, ik
-        self._distribution = distribution
+        self._distribution, self._meter = distribution, meter
         self._feet = [plant.GetBodyByName(robot.foot_bodies[foot]) for foot in FEET]
         self._p_BF: Vector = np.array([0.0, 0.0, -robot.sole.ankle_height])
         actuators = [
@@ -182,12 +196,14 @@ class MotionPredictor:
         foot_error, com_error = np.zeros(len(rows)), np.zeros(len(rows))
         stray = np.zeros(len(rows))
         gaps = np.full((len(rows), len(self._limbs)), np.inf)
+        self_distances: list[SelfDistance] = []
         for k, row in enumerate(rows):
             plant.SetPositions(context, q)
             plant.SetVelocities(context, v)
             before = v
             foot_error[k], com_error[k] = self._errors(context, plan, row)
             stray[k] = np.abs(q - self._ik.posture)[self._upper].max()
+            self_distances.append(self._meter.nearest(q, SELF_RANGE))
             if len(edges):
                 gaps[k] = self._gaps(context, edges, yaw)
             if hopeless and hopeless(foot_error[k], stray[k], float(gaps[k].min())):
@@ -207,6 +223,7 @@ class MotionPredictor:
             stray=stray[:seen],
             gaps=gaps[:seen],
             limbs=tuple(body.name() for body in self._limbs),
+            self_distances=tuple(self_distances),
         )
 
     def _target(self, plan: MotionPlan, row: int, stride: int) -> IkTarget:

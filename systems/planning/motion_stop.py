@@ -27,7 +27,7 @@ def stop_early(
 
     Args:
         plan: on level ground; what is being carried out.
-        time: now, s.
+        time: when the shorter plan takes over, s.
         stance_width: between the ankles when the feet stand side by side, m.
         params: timing and shape, as for the plan.
         preview: as for the plan.

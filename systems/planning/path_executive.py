@@ -10,47 +10,36 @@ from pydrake.common.value import AbstractValue
 from pydrake.systems.framework import Context, LeafSystem
 
 from models.robot import Sole
-from models.validation import require_at_least, require_positive
+from models.validation import Parameters, number
 from systems.planning.decision_state import declare_decisions
 from systems.planning.foothold import sole_corners
 from systems.ports import eval_abstract, eval_vector
 from systems.room_values import Environment, PathPlan
-from systems.values import Footstep, FootstepPlan, MotionPlan, TaskStatus, Value
+from systems.thinking import ThinkingParams, Thought, ready_time
+from systems.values import Footstep, FootstepPlan, MotionPlan, TaskStatus
 
-Activity: TypeAlias = Literal["look", "move", "stop", "stand"]
+Activity: TypeAlias = Literal["look", "plan", "move", "replan", "stop", "stand"]
 
 
 @dataclass(kw_only=True)
-class PathExecutiveParams:
+class PathExecutiveParams(Parameters):
     """When it decides and what it takes for blocked."""
 
-    period: float = 0.025
+    period: float = number(0.025, "s", least=1e-3, most=10.0)
     """Between decisions, s."""
-    settle_time: float = 0.4
+    settle_time: float = number(0.4, "s", least=0.0)
     """Standing still before a look on which a path is planned, s."""
-    look_period: float = 0.5
+    look_period: float = number(0.5, "s", least=1e-3)
     """Between looks at the room while walking, s."""
-    body_radius: float = 0.22
+    body_radius: float = number(0.22, "m", least=0.0)
     """What the walking body takes around each sole, m: a box that comes nearer blocks
     the step. Less than what paths keep, so that the noise of a box's edge does not."""
-    most_plans: int = 20
+    most_plans: int = number(20, least=1)
     """After this many plans the task is given up."""
-
-    def validate(self) -> None:
-        """Checks every field.
-
-        Raises:
-            ValueError: "field: reason, got x" for the first field that is wrong.
-        """
-        for name in ("period", "look_period"):
-            require_positive(name, getattr(self, name))
-        for name in ("settle_time", "body_radius"):
-            require_at_least(name, getattr(self, name), 0.0)
-        require_at_least("most_plans", self.most_plans, 1)
 
 
 @dataclass(frozen=True, eq=False)
-class PathDecision(Value):
+class PathDecision(Thought):
     """What the executive has decided, and what that rests on."""
 
     motion_plan: MotionPlan
@@ -61,7 +50,7 @@ class PathDecision(Value):
     since: float = 0.0
     """When this activity began, s."""
     looked: float = 0.0
-    """When the room was last looked at, s."""
+    """When the room was last looked at, s; what was seen then may be yet to come."""
     plans: int = 0
     """How many motions were planned."""
     status: TaskStatus = dataclasses.field(
@@ -116,8 +105,11 @@ def decide(
     sources: Sources,
     sole: Sole,
     params: PathExecutiveParams,
+    thinking: ThinkingParams,
 ) -> PathDecision:
     """One decision.
+
+    What is thought out rests on the frame and the stance of when the thinking began.
 
     Args:
         before: the last one.
@@ -126,51 +118,85 @@ def decide(
         sources: perception and planners.
         sole: of both feet.
         params: see there.
+        thinking: how long perception and planning take.
 
     Returns:
         The decision; `before` itself where nothing changes.
     """
+    plan = before.motion_plan
+    ended = time >= plan.start_time + plan.duration
+    if before.activity in ("move", "replan", "stop") and ended:
+        return _turn_to(dataclasses.replace(before, coming=None), "look", time)
+    if before.coming is not None:
+        return before.at(time)
     if before.activity == "look":
         if time - before.since < params.settle_time or frames == 0:
             return before
-        return _plan(before, time, sources, params)
-    if before.activity in ("move", "stop"):
-        plan = before.motion_plan
-        if time >= plan.start_time + plan.duration:
-            return _turn_to(before, "look", time)
-        if before.activity == "stop" or time - before.looked < params.look_period:
-            return before
-        environment = sources.environment()
-        looked = dataclasses.replace(before, looked=time, environment=environment)
-        ahead = remaining_footsteps(plan, time)
-        if blocking_box(ahead, environment, sole, params.body_radius) is None:
-            return looked
-        shorter = sources.stop(plan, time)
-        if shorter is None:
-            return looked
-        return _turn_to(dataclasses.replace(looked, motion_plan=shorter), "stop", time)
+        return _look_and_plan(before, time, sources, params, thinking)
+    if before.activity == "move" and time - before.looked >= params.look_period:
+        return _look_on_the_way(before, time, sources, sole, params, thinking)
     return before
 
 
-def _plan(
-    before: PathDecision, time: float, sources: Sources, params: PathExecutiveParams
+def _look_and_plan(
+    before: PathDecision,
+    time: float,
+    sources: Sources,
+    params: PathExecutiveParams,
+    thinking: ThinkingParams,
 ) -> PathDecision:
+    """A look while standing; what it shows and what is planned on it come later."""
+    seen = ready_time(time, thinking.room_perception, params.period)
+    ready = ready_time(seen, thinking.room_planning, params.period)
+    environment = dataclasses.replace(sources.environment(), sensed_at=time)
+    looking = dataclasses.replace(before, looked=time)
+    known = dataclasses.replace(looking, environment=environment)
+    planned = _plan(known, ready, sources, params)
+    planning = _turn_to(known, "plan", seen).until(ready, planned)
+    return looking.until(seen, planning).at(time)
+
+
+def _plan(
+    before: PathDecision, ready: float, sources: Sources, params: PathExecutiveParams
+) -> PathDecision:
+    """What is to be done from `ready` on, s."""
     footsteps = sources.footsteps()
     known = dataclasses.replace(
-        before,
-        looked=time,
-        environment=sources.environment(),
-        path_plan=sources.path(),
-        footstep_plan=footsteps,
+        before, path_plan=sources.path(), footstep_plan=footsteps
     )
     status, reason = footsteps.status, footsteps.reason
     if status == "planned" and before.plans >= params.most_plans:
         status, reason = "infeasible", f"not there after {before.plans} plans"
     if status != "planned":
-        return _turn_to(known, "stand", time, status, reason)
-    plan = sources.motion().starting_at(time)
+        return _turn_to(known, "stand", ready, status, reason)
+    plan = sources.motion().starting_at(ready)
     moving = dataclasses.replace(known, motion_plan=plan, plans=before.plans + 1)
-    return _turn_to(moving, "move", time)
+    return _turn_to(moving, "move", ready)
+
+
+def _look_on_the_way(
+    before: PathDecision,
+    time: float,
+    sources: Sources,
+    sole: Sole,
+    params: PathExecutiveParams,
+    thinking: ThinkingParams,
+) -> PathDecision:
+    """A look while walking; the walk goes on until a box is seen and a stop planned."""
+    seen = ready_time(time, thinking.room_perception, params.period)
+    environment = dataclasses.replace(sources.environment(), sensed_at=time)
+    looking = dataclasses.replace(before, looked=time)
+    looked = dataclasses.replace(looking, environment=environment)
+    ahead = remaining_footsteps(before.motion_plan, seen)
+    if blocking_box(ahead, environment, sole, params.body_radius) is None:
+        return looking.until(seen, looked).at(time)
+    ready = ready_time(seen, thinking.stopping, params.period)
+    shorter = sources.stop(before.motion_plan, ready)
+    if shorter is None:
+        return looking.until(seen, looked).at(time)
+    stopping = _turn_to(dataclasses.replace(looked, motion_plan=shorter), "stop", ready)
+    replanning = _turn_to(looked, "replan", seen).until(ready, stopping)
+    return looking.until(seen, replanning).at(time)
 
 
 def _turn_to(
@@ -188,7 +214,8 @@ class PathExecutive(LeafSystem):
     """Looks at the room, plans a way to the goal, walks it, and looks on the way.
 
     A box that is seen on the steps ahead makes the robot stop in balance; it then
-    looks again, plans anew and goes on.
+    looks again, plans anew and goes on. Perception and planning take time: the robot
+    stands until a plan is there, and walks on until a stop is.
 
     .. pydrake_system::
 
@@ -216,7 +243,8 @@ class PathExecutive(LeafSystem):
     - `motion_plan` (output): the motion that is being carried out.
     - `footstep_plan` (output): the footsteps that were planned last.
     - `path_plan` (output): their path.
-    - `environment` (output): what was seen at the last look.
+    - `environment` (output): what was seen at the last look that is worked out, and
+      when that look was.
     - `status`: how the task is going, abstract TaskStatus.
     """
 
@@ -226,6 +254,7 @@ class PathExecutive(LeafSystem):
         sole: Sole,
         stand: MotionPlan,
         stop: Callable[[MotionPlan, float], MotionPlan | None],
+        thinking: ThinkingParams | None = None,
     ) -> None:
         """Declares ports and the update.
 
@@ -234,6 +263,7 @@ class PathExecutive(LeafSystem):
             sole: of both feet.
             stand: the plan of the default context, which stands.
             stop: cuts a plan short from a time on; None where it ends as soon.
+            thinking: how long perception and planning take; None for the defaults.
 
         Raises:
             ValueError: a parameter is out of range.
@@ -241,6 +271,8 @@ class PathExecutive(LeafSystem):
         super().__init__()
         params.validate()
         self._params, self._sole, self._stop = params, sole, stop
+        self._thinking = thinking or ThinkingParams()
+        self._thinking.validate()
         self._frame = self.DeclareVectorInputPort("frame", 1)
         self._environment = self.DeclareAbstractInputPort(
             "environment", AbstractValue.Make(Environment())
@@ -272,5 +304,11 @@ class PathExecutive(LeafSystem):
         )
         frames = round(float(eval_vector(self._frame, context)[0]))
         return decide(
-            before, context.get_time(), frames, sources, self._sole, self._params
+            before,
+            context.get_time(),
+            frames,
+            sources,
+            self._sole,
+            self._params,
+            self._thinking,
         )

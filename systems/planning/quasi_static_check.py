@@ -108,6 +108,7 @@ def worst_torque(
     q: Vector,
     feet: Vector,
     contacts: Vector,
+    friction: float,
 ) -> tuple[float, str, int]:
     """The largest share of an effort limit that resting in any of n postures takes.
 
@@ -117,6 +118,7 @@ def worst_torque(
         q: positions, (n, nq).
         feet: sole poses, (n, 2, 6).
         contacts: which feet carry, (n, 2).
+        friction: mu of the pyramids that the wrenches are kept in.
 
     Returns:
         The share, the joint and the row.
@@ -147,7 +149,7 @@ def worst_torque(
             contacts[row],
             np.full(2, robot.sole.length),
             robot.sole,
-            DistributionParams(),
+            DistributionParams(friction=friction),
             TorqueMap(forces[columns][in_legs], matrix[in_legs]),
         )
         shares[row] = np.abs(forces[columns] - matrix @ wrenches.ravel()) / effort

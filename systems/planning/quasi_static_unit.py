@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from models.validation import require_at_least, require_positive
+from models.validation import RIGHT_ANGLE, Parameters, number
 from systems.obstacle_values import Feasibility, KeyConfiguration
 from systems.planning.feasibility_unit import (
     SLACKS,
@@ -28,61 +28,50 @@ from systems.ports import Vector
 
 
 @dataclass(kw_only=True)
-class QuasiStaticCrossingParams:
+class QuasiStaticCrossingParams(Parameters):
     """How an obstacle is stepped over with the CoM always over what stands."""
 
-    single_support: float = 3.0
+    single_support: float = number(3.0, "s", least=0.05, most=60.0)
     """Phases 1 and 3, s."""
-    double_support: float = 3.0
+    double_support: float = number(3.0, "s", least=0.05, most=60.0)
     """Phase 2 and the double supports about the crossing, s (obstacle paper: 15)."""
-    walk_single_support: float = 1.2
+    walk_single_support: float = number(1.2, "s", least=0.05, most=60.0)
     """One foot in the air on free ground, s."""
-    walk_double_support: float = 1.8
+    walk_double_support: float = number(1.8, "s", least=0.05, most=60.0)
     """The CoM goes from foot to foot on free ground, s."""
-    rest: float = 0.15
+    rest: float = number(0.15, "s", least=0.0, most=60.0)
     """Before a foot lifts the CoM has been over the other one for this long, s."""
-    com_begin: float = 0.125
+    com_begin: float = number(0.125, "m")
     """CoM ahead of the rear ankle as phase 2 begins, m: on the toes' side, where the
     way over is short and the bent knee has little to carry."""
-    com_end: float = 0.0
+    com_end: float = number(0.0, "m")
     """CoM ahead of the front ankle as phase 2 ends, m; behind the middle of the sole,
     for the rear leg must reach."""
-    lean: float = 0.3
+    lean: float = number(0.3, "rad", least=0.0, below=RIGHT_ANGLE)
     """Forward pitch of the pelvis as phase 2 ends, rad: with the arms it holds the
     waist back from the CoM, which keeps the front knee near the load."""
-    arms: float = 0.8
+    arms: float = number(0.8, "rad", least=0.0)
     """How far the shoulders pitch forward by then, rad."""
-    margin: float = 0.02
+    margin: float = number(0.02, "m", least=0.0)
     """Kept by the CoM from the edges of what stands, m."""
-    waist_travel: float = 0.015
+    waist_travel: float = number(0.015, "m", least=0.0)
     """How far the waist may be from where it was meant to be over the CoM, m."""
-    knee_margin: float = 0.1
+    knee_margin: float = number(0.1, "rad", least=0.0)
     """How far the knees keep off their straightest, rad: they move slowly."""
-    sampling: float = 0.02
+    sampling: float = number(0.02, "s", least=1e-3, most=1.0)
     """Of the whole-body motion that is planned, s."""
-    friction: float = 0.6
+    friction: float = number(0.6, above=0.0, most=10.0, shared="parameters.friction")
     """mu that the static-stability polygons are computed with."""
-    torque_share: float = 0.95
+    torque_share: float = number(0.95, above=0.0, most=10.0)
     """Share of a joint's effort limit that standing may take."""
 
     def validate(self) -> None:
-        """Checks every field.
+        """Checks every field, and those that concern each other.
 
         Raises:
             ValueError: "field: reason, got x" for the first field that is wrong.
         """
-        for name in (
-            "single_support",
-            "double_support",
-            "walk_single_support",
-            "walk_double_support",
-            "sampling",
-            "friction",
-            "torque_share",
-        ):
-            require_positive(name, getattr(self, name))
-        for name in ("rest", "lean", "arms", "margin", "waist_travel", "knee_margin"):
-            require_at_least(name, getattr(self, name), 0.0)
+        super().validate()
         if not self.rest < min(self.double_support, self.walk_double_support):
             raise ValueError(
                 f"rest: must be shorter than the double supports, got {self.rest:g} s"
@@ -131,12 +120,12 @@ def quasi_static_unit(
     inflated = Section(x1 - x0, top)
     toe, heel = leg.outline.toe, leg.outline.heel
     sole = leg.sole
-    for number, place in ((6, quasi.com_begin), (8, quasi.com_end)):
+    for equation, place in ((6, quasi.com_begin), (8, quasi.com_end)):
         inside = min(sole.toe - place, place + sole.heel)
         if inside < quasi.margin - 1e-9:
             return Feasibility(
-                constraint=f"Eq. {number}: the CoM is to be {inside:.3f} m inside the "
-                f"sole, less than {quasi.margin:.3f} m"
+                constraint=f"Eq. {equation}: the CoM is to be {inside:.3f} m inside "
+                f"the sole, less than {quasi.margin:.3f} m"
             )
     least = toe + heel + inflated.width
     shortest = least + params.step_increment
@@ -154,7 +143,7 @@ def quasi_static_unit(
         X, share, Z = np.meshgrid(lengths, SLACKS, heights, indexing="ij")
         front = toe + share * (X - least)
         ends: list[tuple[Vector, Mask]] = []
-        for number, com, ahead, carrier in (
+        for equation, com, ahead, carrier in (
             (6, quasi.com_begin + np.zeros(X.size), balance.waist_begin, 0),
             (8, X.ravel() + quasi.com_end, balance.waist_end, 1),
         ):
@@ -170,8 +159,8 @@ def quasi_static_unit(
             )
             load = balance.weight * (checked.knees[:, carrier] - com)
             fine, _ = _acceptable(checked, load, params, quasi, balance, section)
-            possible[number] |= bool(fine.any())
-            tried[number].append((checked, load))
+            possible[equation] |= bool(fine.any())
+            tried[equation].append((checked, load))
             ends.append(((com + ahead).reshape(X.shape), fine.reshape(X.shape)))
         both = ends[0][1].any(axis=2) & ends[1][1].any(axis=2)
         if both.any():
@@ -182,15 +171,15 @@ def quasi_static_unit(
             return Feasibility(
                 KeyConfiguration(float(lengths[i]), hips[0], begin, where, hips[1], end)
             )
-    for number, foot in ((6, "rear"), (8, "front")):
-        if possible[number]:
+    for equation, foot in ((6, "rear"), (8, "front")):
+        if possible[equation]:
             continue
-        parts, loads = zip(*tried[number], strict=True)
+        parts, loads = zip(*tried[equation], strict=True)
         every = Checked(*map(np.concatenate, zip(*parts, strict=True)))
         load = np.concatenate(loads)
         _, reason = _acceptable(every, load, params, quasi, balance, section)
         return Feasibility(
-            constraint=f"Eq. {number}, the CoM over the {foot} foot: {reason}"
+            constraint=f"Eq. {equation}, the CoM over the {foot} foot: {reason}"
         )
     return Feasibility(
         constraint="Eqs. 6 and 8: no one step length allows the CoM over either foot "

@@ -14,6 +14,7 @@ import numpy as np
 from pydrake.math import RigidTransform, RollPitchYaw
 
 from models.robot import Sole
+from models.validation import RIGHT_ANGLE, Parameters, number
 from systems.planning.foothold import heading, sole_corners, wrap
 from systems.ports import Vector
 
@@ -38,42 +39,34 @@ SAMPLES: Vector = np.linspace(0.0, 1.0, 61)
 
 
 @dataclass(kw_only=True)
-class SwingParams:
+class SwingParams(Parameters):
     """How a foot swings."""
 
-    apex_clearance: float = 0.05
+    apex_clearance: float = number(0.05, "m", least=0.0)
     """Height of the sole's lowest point over the highest of both footholds and all
     edges at the top of the swing, m."""
-    edge_clearance: float = 0.03
+    edge_clearance: float = number(0.03, "m", least=0.0)
     """Distance kept from an edge, m: above it, or behind and beyond it. Less only
     where the sole stands nearer at the start or the end."""
-    touch_down_height: float = 0.015
+    touch_down_height: float = number(0.015, "m", least=0.0)
     """From this height above the foothold, m, the foot comes straight down, so that a
     ground up to that much too high is met without a knock forward."""
-    swing_pitch: float = 0.0
+    swing_pitch: float = number(0.0, "rad", above=-RIGHT_ANGLE, below=RIGHT_ANGLE)
     """Pitch of the foot at the top of the swing, rad; negative lifts the toes."""
-    retraction: float = 0.0
+    retraction: float = number(0.0, "m", least=0.0)
     """How far the foot first draws back where there is an edge on the way, m."""
 
     def validate(self) -> None:
-        """Checks the fields.
+        """Checks every field, and those that concern each other.
 
         Raises:
-            ValueError: naming the field, the reason and what it got.
+            ValueError: "field: reason, got x" for the first field that is wrong.
         """
-        for name in ("edge_clearance", "touch_down_height", "retraction"):
-            if not getattr(self, name) >= 0.0:
-                raise ValueError(
-                    f"{name}: must not be negative, got {getattr(self, name)}"
-                )
+        super().validate()
         if not self.apex_clearance >= max(self.edge_clearance, self.touch_down_height):
             raise ValueError(
                 "apex_clearance: must not be less than edge_clearance and "
-                f"touch_down_height, got {self.apex_clearance}"
-            )
-        if not abs(self.swing_pitch) < np.pi / 2.0:
-            raise ValueError(
-                f"swing_pitch: must be less than a right angle, got {self.swing_pitch}"
+                f"touch_down_height, got {self.apex_clearance:g} m"
             )
 
 
@@ -119,6 +112,18 @@ def quintic(u: Vector) -> Vector:
     """Blend from 0 at u <= 0 to 1 at u >= 1 with no velocity or acceleration there."""
     u = np.clip(u, 0.0, 1.0)
     return u**3 * (10.0 - 15.0 * u + 6.0 * u**2)
+
+
+def inward_bow(u: Vector) -> Vector:
+    """Share of its greatest way aside at which a foot is that swings in a bow.
+
+    16 u^2 (1 - u)^2: 0 at both ends without velocity, 1 in the middle.
+
+    Args:
+        u: part of the duration, 0 to 1.
+    """
+    bow: Vector = 16.0 * (u * (1.0 - u)) ** 2
+    return bow
 
 
 def swing_trajectory(

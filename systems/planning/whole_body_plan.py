@@ -8,6 +8,7 @@ import numpy as np
 from pydrake.multibody.plant import MultibodyPlant
 
 from models.robot import RobotModel
+from models.self_distance import SelfDistanceMeter
 from systems.balance.dynamic_filter import multibody_zmp
 from systems.planning.leg_model import LegModel, both_leg_angles, rotations
 from systems.planning.link_tree import LinkTree, com_in_base, link_tree, momentum
@@ -23,6 +24,11 @@ class WholeBody:
     """The robot alone, finalised, floating base first."""
     robot: RobotModel
     leg: LegModel
+
+    @cached_property
+    def meter(self) -> SelfDistanceMeter:
+        """Of the robot's own collision geometry."""
+        return SelfDistanceMeter(self.robot)
 
     @cached_property
     def tree(self) -> LinkTree:

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -11,12 +11,7 @@ from pydrake.math import RigidTransform
 from pydrake.systems.framework import BasicVector, Context, LeafSystem, State
 
 from models.solids import TriangleMesh
-from models.validation import (
-    require_at_least,
-    require_finite,
-    require_length,
-    require_positive,
-)
+from models.validation import LARGEST_SEED, Parameters, number
 from systems.ports import Vector, eval_abstract, set_vector
 from systems.room_values import DepthImage
 from systems.sensing.pinhole import looking_at, pixel_rays, pixels_of_sphere
@@ -29,66 +24,54 @@ NEAR = 0.5
 
 
 @dataclass(kw_only=True)
-class DepthCameraParams:
+class DepthCameraParams(Parameters):
     """An RGB-D camera's depth, fixed in the room (room paper, Sec. 2.1)."""
 
-    columns: int = 640
+    columns: int = number(640, "pixels", least=1, most=4096)
     """Width of the picture, pixels (paper: VGA)."""
-    rows: int = 480
+    rows: int = number(480, "pixels", least=1, most=4096)
     """Height of the picture, pixels (paper: VGA)."""
-    field_of_view_deg: float = 90.0
+    field_of_view_deg: float = number(90.0, "deg", least=1.0, below=170.0)
     """Horizontal field of view, deg. The paper's Xtion has 58 deg, which from under a
     ceiling of 3 m sees 3.2 m of floor; a walk of 5 m takes a wider lens."""
-    period: float = 1.0 / 30.0
+    period: float = number(1.0 / 30.0, "s", least=1e-3, most=10.0)
     """Time between frames, s (paper: 25 to 30 Hz)."""
-    min_range: float = 0.5
+    min_range: float = number(0.5, "m", least=0.0)
     """Least depth that is measured, m."""
-    max_range: float = 5.0
+    max_range: float = number(5.0, "m", above=0.0)
     """Greatest depth that is measured, m; where the noise is `noise_far`."""
-    noise_near: float = 0.002
+    noise_near: float = number(0.002, "m", least=0.0, most=1.0)
     """Standard deviation of a depth at 0.5 m, m (paper: a few millimetres)."""
-    noise_far: float = 0.04
+    noise_far: float = number(0.04, "m", least=0.0, most=1.0)
     """Standard deviation of a depth at `max_range`, m (paper: about 4 cm); it grows
     with the square of the depth (Khoshelham and Elberink 2012)."""
-    position: list[float] = field(default_factory=lambda: [0.0, -0.8, 2.9])
+    position: list[float] = number([0.0, -0.8, 2.9], "m", length=3)
     """Where the camera is in W, m: under the ceiling of a 3 m room."""
-    target: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
+    target: list[float] = number([0.0, 0.0, 0.0], "m", length=3)
     """The point in W in the middle of the picture, m; the picture is upright, so its
     width runs across the line from here to the target."""
-    seed: int = 0
+    seed: int = number(0, least=0, most=LARGEST_SEED)
     """Seed of the noise."""
 
     def validate(self) -> None:
-        """Checks every field.
+        """Checks every field, and those that concern each other.
 
         Raises:
             ValueError: "field: reason, got x" for the first field that is wrong.
         """
-        require_at_least("columns", self.columns, 1, "pixels")
-        require_at_least("rows", self.rows, 1, "pixels")
-        require_positive("field_of_view_deg", self.field_of_view_deg, "deg")
-        if not self.field_of_view_deg < 170.0:
+        super().validate()
+        if not self.max_range > max(self.min_range, NEAR):
             raise ValueError(
-                f"field_of_view_deg: must be less than 170 deg for a pinhole, "
-                f"got {self.field_of_view_deg:g} deg"
-            )
-        require_positive("period", self.period, "s")
-        require_at_least("min_range", self.min_range, 0.0, "m")
-        if not max(self.min_range, NEAR) < self.max_range < math.inf:
-            raise ValueError(
-                f"max_range: must be finite, exceed min_range and {NEAR:g} m, "
+                f"max_range: must exceed min_range and {NEAR:g} m, "
                 f"got {self.max_range:g} m"
             )
-        require_at_least("noise_near", self.noise_near, 0.0, "m")
-        require_at_least("noise_far", self.noise_far, self.noise_near, "m")
-        for item in ("position", "target"):
-            value = getattr(self, item)
-            require_length(item, value, 3)
-            for index, coordinate in enumerate(value):
-                require_finite(f"{item}[{index}]", coordinate, "m")
+        if self.noise_far < self.noise_near:
+            raise ValueError(
+                f"noise_far: must be at least {self.noise_near:g} m, "
+                f"got {self.noise_far:g} m"
+            )
         if self.position == self.target:
             raise ValueError(f"target: must differ from position, got {self.target} m")
-        require_at_least("seed", self.seed, 0)
 
     @property
     def focal_length(self) -> float:

@@ -1,12 +1,13 @@
 """Force sensors under the feet, and the ZMP that they measure."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from pydrake.common.value import AbstractValue
+from pydrake.geometry import GeometryId
 from pydrake.math import RigidTransform
 from pydrake.multibody.plant import ContactResults, MultibodyPlant
-from pydrake.multibody.tree import BodyIndex, ModelInstanceIndex
+from pydrake.multibody.tree import ModelInstanceIndex
 from pydrake.systems.framework import BasicVector, Context, LeafSystem
 
 from models.robot import RobotModel
@@ -15,39 +16,45 @@ from systems.sensing.measured_zmp import measured_zmp
 from systems.timing import timed
 from systems.values import FEET
 
+_NOTHING: Vector = np.zeros(3)
+
 
 def sum_wrenches(
     results: ContactResults,
-    feet: Sequence[BodyIndex],
+    foot_of: Mapping[GeometryId, int],
     X_WF: Sequence[RigidTransform],
 ) -> Vector:
-    """Wrench of all contacts on each foot, in its sole frame.
+    """Sum the wrenches of all contacts on each foot, in its sole frame.
 
     Args:
-        results: point contacts of one plant step.
-        feet: bodies of the feet.
-        X_WF: their sole frames.
+        results: of one plant step; point contacts and contact surfaces count alike.
+        foot_of: which foot each collision geometry of a foot belongs to.
+        X_WF: the sole frames.
 
     Returns:
         Force, then moment about F, in F, a row a foot, (feet, 6), N and Nm.
     """
-    wrenches = np.zeros((len(feet), 6))
-    forces: list[list[Vector]] = [[] for _ in feet]
-    points: list[list[Vector]] = [[] for _ in feet]
+    wrenches = np.zeros((len(X_WF), 6))
+
+    def add(id_on: GeometryId, point: Vector, force: Vector, moment: Vector) -> None:
+        k = foot_of.get(id_on)
+        if k is not None:
+            arm = point - X_WF[k].translation()
+            wrenches[k, :3] += force
+            wrenches[k, 3:] += moment + np.cross(arm, force)
+
     for i in range(results.num_point_pair_contacts()):
         contact = results.point_pair_contact_info(i)
-        # contact_force is the force on body B.
-        for body, sign in ((contact.bodyA_index(), -1.0), (contact.bodyB_index(), 1.0)):
-            if body in feet:
-                k = feet.index(body)
-                forces[k].append(sign * np.asarray(contact.contact_force()))
-                points[k].append(np.asarray(contact.contact_point()))
-    for k, X in enumerate(X_WF):
-        if forces[k]:
-            force = np.array(forces[k])
-            arm = np.array(points[k]) - X.translation()
-            wrenches[k, :3] = force.sum(axis=0)
-            wrenches[k, 3:] = np.cross(arm, force).sum(axis=0)
+        pair = contact.point_pair()
+        point, on_B = contact.contact_point(), contact.contact_force()
+        add(pair.id_A, point, _NOTHING - on_B, _NOTHING)
+        add(pair.id_B, point, on_B, _NOTHING)
+    for i in range(results.num_hydroelastic_contacts()):
+        info = results.hydroelastic_contact_info(i)
+        surface, on_M = info.contact_surface(), info.F_Ac_W()
+        force, moment = on_M.translational(), on_M.rotational()
+        add(surface.id_M(), surface.centroid(), force, moment)
+        add(surface.id_N(), surface.centroid(), _NOTHING - force, _NOTHING - moment)
     for wrench, X in zip(wrenches, X_WF, strict=True):
         R_FW = X.rotation().matrix().T
         wrench[:3] = R_FW @ wrench[:3]
@@ -68,7 +75,7 @@ class FootWrenchSensor(LeafSystem):
         - foot_wrenches
         - zmp
 
-    - `contact_results`: of a MultibodyPlant with point contact, abstract.
+    - `contact_results`: of a MultibodyPlant, abstract.
     - `body_poses`: of the same plant, abstract list of X_WB.
     - `foot_wrenches`: of the ground on the left and the right foot, each force then
       moment about F, in F, (12,), N and Nm.
@@ -86,10 +93,13 @@ class FootWrenchSensor(LeafSystem):
             robot: its names.
         """
         super().__init__()
-        self._feet = [
-            plant.GetBodyByName(robot.foot_bodies[foot], instance).index()
-            for foot in FEET
-        ]
+        feet = [plant.GetBodyByName(robot.foot_bodies[foot], instance) for foot in FEET]
+        self._feet = [foot.index() for foot in feet]
+        self._foot_of = {
+            geometry: k
+            for k, foot in enumerate(feet)
+            for geometry in plant.GetCollisionGeometriesForBody(foot)
+        }
         p_BF: Vector = np.array([0.0, 0.0, -robot.sole.ankle_height])
         self._X_BF = RigidTransform(p_BF)
         self._results = self.DeclareAbstractInputPort(
@@ -116,7 +126,7 @@ class FootWrenchSensor(LeafSystem):
 
     def _calc_wrenches(self, context: Context, output: BasicVector) -> None:
         results = eval_abstract(self._results, context, ContactResults)
-        wrenches = sum_wrenches(results, self._feet, self._sole_frames(context))
+        wrenches = sum_wrenches(results, self._foot_of, self._sole_frames(context))
         set_vector(output, wrenches.ravel())
 
     def _calc_zmp(self, context: Context, output: BasicVector) -> None:

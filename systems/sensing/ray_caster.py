@@ -3,15 +3,18 @@
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
-import open3d as o3d
 from pydrake.math import RigidTransform
 
 from models.solids import TriangleMesh
 from systems.ports import Vector
 from systems.values import Value
+
+# Open3D takes as long to import as all else together; who casts no ray needs none.
+if TYPE_CHECKING:
+    from systems.open3d_loader import open3d as o3d
 
 Beams: TypeAlias = slice | np.ndarray[Any, np.dtype[np.int64]]
 """Some of the beams, by their place among all."""
@@ -121,7 +124,7 @@ class _Body:
 
 def _tree(
     vertices: Vector, triangles: np.ndarray[Any, np.dtype[np.int64]]
-) -> o3d.t.geometry.RaycastingScene:
+) -> "o3d.t.geometry.RaycastingScene":
     """The tree of a mesh; equal meshes have one tree between them.
 
     A process that holds about a thousand trees crashes in Embree, and Drake never lets
@@ -134,7 +137,9 @@ def _tree(
 
 
 @lru_cache(maxsize=128)
-def _shared_tree(vertices: bytes, triangles: bytes) -> o3d.t.geometry.RaycastingScene:
+def _shared_tree(vertices: bytes, triangles: bytes) -> "o3d.t.geometry.RaycastingScene":
+    from systems.open3d_loader import open3d as o3d
+
     tree = o3d.t.geometry.RaycastingScene(nthreads=1)
     corners = np.frombuffer(vertices, dtype=np.float32).reshape(-1, 3)
     faces = np.frombuffer(triangles, dtype=np.uint32).reshape(-1, 3)
@@ -147,12 +152,14 @@ def _shared_tree(vertices: bytes, triangles: bytes) -> o3d.t.geometry.Raycasting
 
 
 def _hit(
-    tree: o3d.t.geometry.RaycastingScene,
+    tree: "o3d.t.geometry.RaycastingScene",
     X_TL: RigidTransform,
     directions: Vector,
     threads: int,
 ) -> Vector:
     """Distances along directions in L, (n, 3), to a tree whose frame is T."""
+    from systems.open3d_loader import open3d as o3d
+
     rays = np.empty((len(directions), 6), dtype=np.float32)
     rays[:, :3] = X_TL.translation()
     rays[:, 3:] = directions @ X_TL.rotation().matrix().T

@@ -11,67 +11,63 @@ from pydrake.math import RigidTransform
 from pydrake.systems.framework import BasicVector, Context, LeafSystem, State
 
 from models.solids import TriangleMesh
-from models.validation import require_at_least, require_positive
+from models.validation import LARGEST_SEED, Parameters, number
 from systems.ports import Vector, eval_abstract, eval_vector, set_vector
 from systems.sensing.ray_caster import BodyMesh, RayCaster
 from systems.sensing.scan_geometry import beam_angles, beam_directions, tilt_pose
 from systems.timing import timed
 from systems.values import LaserScan, Value
 
+MOST_POINTS = 10_000_000
+"""More than this many points of a sweep are refused; this scanner takes 260,521."""
+
 
 @dataclass(kw_only=True)
-class TiltingLidarParams:
+class TiltingLidarParams(Parameters):
     """A Hokuyo UTM-30LX-EW on a tilt servo.
 
     Angles are in degrees, as on its data sheet, so that lines and beams count out.
     """
 
-    field_of_view_deg: float = 270.0
+    field_of_view_deg: float = number(270.0, "deg", above=0.0)
     """Angle between the first and the last beam, deg (stair paper, Sec. 3)."""
-    resolution_deg: float = 0.25
+    resolution_deg: float = number(0.25, "deg", least=0.01)
     """Angle between neighbouring beams, deg (stair paper, Sec. 3)."""
-    line_period: float = 0.025
+    line_period: float = number(0.025, "s", least=1e-3, most=10.0)
     """Time between lines, s (stair paper, Sec. 3)."""
-    min_range: float = 0.1
+    min_range: float = number(0.1, "m", least=0.0)
     """Least range that is measured, m (stair paper, Sec. 3)."""
-    max_range: float = 30.0
+    max_range: float = number(30.0, "m", above=0.0)
     """Greatest range that is measured, m (data sheet)."""
-    noise: float = 0.005
+    noise: float = number(0.005, "m", least=0.0, most=1.0)
     """Standard deviation of a range, m; real clouds of this scanner show 4 to 6 mm."""
-    tilt_start_deg: float = 30.0
+    tilt_start_deg: float = number(30.0, "deg", least=-180.0, most=180.0)
     """Tilt of the first line, deg, positive down; sees the ground 3 m ahead."""
-    tilt_end_deg: float = 90.0
+    tilt_end_deg: float = number(90.0, "deg", least=-180.0, most=180.0)
     """Tilt of the last line, deg; straight down, to see the tread next to the feet.
     The sweep is 60 deg (stair paper, Sec. 3)."""
-    tilt_step_deg: float = 0.25
+    tilt_step_deg: float = number(0.25, "deg", least=0.01)
     """Tilt between lines, deg; as fine as the beams."""
-    seed: int = 0
+    seed: int = number(0, least=0, most=LARGEST_SEED)
     """Seed of the noise."""
 
     def validate(self) -> None:
-        """Checks every field.
+        """Checks every field, and those that concern each other.
 
         Raises:
             ValueError: "field: reason, got x" for the first field that is wrong.
         """
-        for item in ("field_of_view_deg", "resolution_deg", "tilt_step_deg"):
-            require_positive(item, getattr(self, item), "deg")
+        super().validate()
         if not self.field_of_view_deg <= 360.0 - self.resolution_deg:
             raise ValueError(
                 "field_of_view_deg: must be less than a turn by a beam, "
                 f"got {self.field_of_view_deg:g} deg"
             )
         _require_whole("resolution_deg", self.field_of_view_deg, self.resolution_deg)
-        require_positive("line_period", self.line_period, "s")
-        require_at_least("min_range", self.min_range, 0.0, "m")
-        if not self.min_range < self.max_range < math.inf:
+        if not self.min_range < self.max_range:
             raise ValueError(
-                f"max_range: must be finite and exceed min_range, "
-                f"got {self.max_range:g} m"
+                f"max_range: must exceed min_range, got {self.max_range:g} m"
             )
-        require_at_least("noise", self.noise, 0.0, "m")
-        require_at_least("tilt_start_deg", self.tilt_start_deg, -180.0, "deg")
-        require_at_least("tilt_end_deg", self.tilt_end_deg, -180.0, "deg")
         if not self.tilt_end_deg > self.tilt_start_deg:
             raise ValueError(
                 f"tilt_end_deg: must exceed tilt_start_deg, got {self.tilt_end_deg:g} "
@@ -79,7 +75,12 @@ class TiltingLidarParams:
             )
         sweep = self.tilt_end_deg - self.tilt_start_deg
         _require_whole("tilt_step_deg", sweep, self.tilt_step_deg)
-        require_at_least("seed", self.seed, 0)
+        points = sweep / self.tilt_step_deg * self.field_of_view_deg
+        if points / self.resolution_deg > MOST_POINTS:
+            raise ValueError(
+                f"tilt_step_deg: must leave a sweep at most {MOST_POINTS:g} points, "
+                f"got {self.tilt_step_deg:g} deg"
+            )
 
     def angles(self) -> Vector:
         """Directions of the beams, (n,), rad; see `beam_angles`."""

@@ -15,63 +15,44 @@ from pydrake.multibody.tree import JacobianWrtVariable
 from pydrake.systems.framework import Context
 
 from models.robot import RobotModel
-from models.validation import require_at_least, require_positive
+from models.validation import Parameters, number
 from systems.ports import Vector
 from systems.values import FEET
 
 
 @dataclass(kw_only=True)
-class IkParams:
+class IkParams(Parameters):
     """Weights and gains of the QP."""
 
-    period: float = 0.005
+    period: float = number(
+        0.005, "s", least=1e-4, most=0.1, shared="parameters.control_period"
+    )
     """Between ticks, s."""
-    com_weight: float = 1.0
+    com_weight: float = number(1.0, above=0.0)
     """w_CoM of the horizontal CoM velocity error, s^2/m^2 (stair paper, Sec. 6.1)."""
-    height_weight: float = 0.3
+    height_weight: float = number(0.3, above=0.0)
     """Weight of the CoM's vertical velocity error; lower, so that a leg near its reach
     gives way in height rather than in balance."""
-    waist_weight: float = 0.05
+    waist_weight: float = number(0.05, least=0.0)
     """Weight of the pelvis' roll and pitch rates, s^2/rad^2."""
-    waist_yaw_weight: float = 0.01
+    waist_yaw_weight: float = number(0.01, least=0.0)
     """Weight of the pelvis' yaw rate, s^2/rad^2."""
-    free_weight: float = 0.2
+    free_weight: float = number(0.2, least=0.0)
     """w_free of the free foot's velocity error (stair paper, Sec. 6.1)."""
-    posture_weight: float = 1e-3
+    posture_weight: float = number(1e-3, least=0.0)
     """w_ref of the posture of the joints above the legs (stair paper, Sec. 6.1)."""
-    leg_weight: float = 1e-6
+    leg_weight: float = number(1e-6, least=0.0)
     """The same for the legs, which the tasks determine but at singularities."""
-    damping: float = 1e-5
+    damping: float = number(1e-5, above=0.0)
     """Weight of every velocity; keeps near-straight knees tame."""
-    gain: float = 20.0
+    gain: float = number(20.0, "1/s", above=0.0)
     """K: task and limit errors decay with this rate, 1/s."""
-    posture_gain: float = 2.0
+    posture_gain: float = number(2.0, "1/s", least=0.0)
     """Rate at which the posture is sought, 1/s."""
-    speed_share: float = 0.9
+    speed_share: float = number(0.9, above=0.0, most=1.0)
     """Share of the joints' speed limits that is used."""
-    position_margin: float = 0.02
+    position_margin: float = number(0.02, "rad", least=0.0)
     """Distance kept from the joints' position limits, rad."""
-
-    def validate(self) -> None:
-        """Checks every field.
-
-        Raises:
-            ValueError: "field: reason, got x" for the first field that is wrong.
-        """
-        for name in ("period", "com_weight", "height_weight", "damping", "gain"):
-            require_positive(name, getattr(self, name))
-        for name in (
-            "waist_weight",
-            "waist_yaw_weight",
-            "free_weight",
-            "posture_weight",
-            "leg_weight",
-            "posture_gain",
-            "position_margin",
-        ):
-            require_at_least(name, getattr(self, name), 0.0)
-        if not 0.0 < self.speed_share <= 1.0:
-            raise ValueError(f"speed_share: must lie in (0, 1], got {self.speed_share}")
 
 
 @dataclass(frozen=True)

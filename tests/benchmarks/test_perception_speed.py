@@ -3,9 +3,10 @@
 from typing import Any
 
 import numpy as np
-import open3d as o3d
 import pytest
 
+from models.jvrc1 import JVRC1
+from systems.open3d_loader import open3d as o3d
 from systems.perception.plane_segmentation import segment_planes
 from systems.perception.segmenter_params import PlaneSegmenterParams
 from systems.ports import Vector
@@ -52,5 +53,5 @@ def test_plane_segmentation(benchmark: Any, part: str, order: str) -> None:
     benchmark.extra_info["points"] = len(cloud)
     gravity = np.array([0.0, 0.0, -9.81])
     params = PlaneSegmenterParams(order=order)
-    found, _ = benchmark(segment_planes, cloud, gravity, params, EYE)
+    found, _ = benchmark(segment_planes, cloud, gravity, params, JVRC1.sole, EYE)
     assert len(found.staircase.treads) == 3

@@ -86,7 +86,7 @@ def test_planning(benchmark: Any, seed: int) -> None:
 def test_whole_planning(benchmark: Any, seed: int) -> None:
     """The same with the motion along the footsteps, its ZMP pattern included."""
     environment = perceive(depth_image(seed))
-    params = load_scenario("room").parameters
+    params = load_scenario("room").controllers()
     feet = np.array([[*START, 0.0, 0.0, 0.0, 0.0]] * 2)
     feet[:, 1] += [0.095, -0.095]
     com = np.array([*START, params.motion_planner.com_height])

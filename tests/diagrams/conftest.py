@@ -18,9 +18,10 @@ from diagrams.scenario import Scenario, SimulationParams, load_scenario
 from diagrams.signals import SignalRecorder
 from diagrams.simulation import run_task
 from diagrams.task_diagram import TaskDiagram
+from models.contact_geometry import is_sole
 from models.jvrc1 import JVRC1
 from models.robot import JointGains
-from models.robot_loader import add_robot, is_sole
+from models.robot_loader import add_robot
 from models.scene import SceneParams
 from models.solid_names import is_ground
 from models.solids import add_solids
@@ -124,7 +125,7 @@ def standing_task(
     plant, scene_graph = AddMultibodyPlant(
         MultibodyPlantConfig(
             time_step=TIME_STEP,
-            contact_model="point",
+            contact_model="hydroelastic_with_fallback",
             discrete_contact_approximation="sap",
         ),
         builder,

@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from diagrams.cli import SLOPE, app
-from diagrams.scenario import list_scenarios, save_scenario
+from diagrams.cli import LOCAL_HOST, SLOPE, app
+from diagrams.live_view import LOCAL_HOST as DEFAULT_HOST
+from diagrams.scenario import save_scenario
+from diagrams.shipped import list_scenarios
 from diagrams.signals import load_run
 from systems.perception.segmenter_params import PlaneSegmenterParams
 from systems.values import TaskStatus
@@ -117,7 +119,7 @@ def test_the_reason_stays_one_line_as_it_is(stand, tmp_path) -> None:
         (("run", "nowhere/x.yaml"), ("nowhere/x.yaml", "no such file")),
         (("diagram", "stairs-exp9"), ("stairs-exp9",)),
         (("plot", "nowhere"), ("nowhere", "no such folder")),
-        (("replay", "."), ("not a run folder", "summary.json")),
+        (("replay", "."), ("not a run folder", "scenario.yaml")),
         (("segment", "nowhere.pcd"), ("nowhere.pcd",)),
         (("segment", "x.pcd", "--gravity", "0,0"), ("--gravity", "'0,0'")),
         (("segment", "x.pcd", "--gravity", "0,0,0"), ("--gravity",)),
@@ -152,6 +154,25 @@ def test_an_empty_cloud_is_bad_input(tmp_path) -> None:
     assert "empty.xyz" in line
 
 
+def test_a_cloud_without_planes_says_what_is_likely(tmp_path) -> None:
+    """What was seen and a question, below the count; neither where planes are."""
+    x, y = (v.ravel() for v in np.meshgrid(*2 * [np.arange(0.0, 1.0, 0.01)]))
+    level = np.column_stack([x, y, 0.0 * x])
+    said = {}
+    for name, scale in (("metres", 1.0), ("millimetres", 1000.0)):
+        np.save(tmp_path / f"{name}.npy", scale * level)
+        result = footfall("segment", tmp_path / f"{name}.npy", "--out", tmp_path / name)
+        assert result.exit_code == 0, result.output
+        said[name] = result.stdout
+    assert said["millimetres"].splitlines()[:3] == [
+        "10000 points: 0 planes, 0 treads",
+        "  10,000 points in 990 x 990 x 0 m, typically 10 m apart",
+        "  it is 970 m across with points 10 m apart: are these centimetres or "
+        "millimetres?",
+    ]
+    assert "are these" not in said["metres"]
+
+
 def test_the_slope_decides_which_planes_are_kept(tmp_path) -> None:
     """One of 20 degrees is too steep by default, as for `PlaneSegmenterParams`."""
     assert math.radians(SLOPE) == pytest.approx(PlaneSegmenterParams().slope_tolerance)
@@ -178,6 +199,37 @@ def test_a_programming_error_is_no_bad_input(stand, monkeypatch) -> None:
         CliRunner().invoke(app, ["run", str(stand)], catch_exceptions=False)
 
 
+def test_meshcat_listens_where_it_is_told(stand, tmp_path, monkeypatch) -> None:
+    """On this machine by default; an interface that is not there is named."""
+    seen = []
+
+    def meshcat_at(host):
+        if host == "192.0.2.1":
+            raise RuntimeError("no such interface")
+        seen.append(host)
+
+    monkeypatch.setattr("diagrams.live_view.meshcat_at", meshcat_at)
+    footfall("run", stand, "--out", tmp_path / "a", "--meshcat")
+    footfall("run", stand, "--out", tmp_path / "b", "--meshcat", "--meshcat-host", "*")
+    footfall("run", stand, "--out", tmp_path / "c")
+    assert seen == [LOCAL_HOST, "*"]
+    assert LOCAL_HOST == DEFAULT_HOST
+    result = footfall("run", stand, "--meshcat", "--meshcat-host", "192.0.2.1")
+    assert result.exit_code == 2
+    assert result.stderr == "footfall: --meshcat-host 192.0.2.1: no such interface\n"
+
+
+def test_ctrl_c_before_anything_is_simulated(stand, monkeypatch) -> None:
+    """Status 130, and nothing is said."""
+
+    def interrupted(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(sys.modules["diagrams.tasks"], "build_task", interrupted)
+    result = footfall("run", stand)
+    assert (result.exit_code, result.output) == (130, "")
+
+
 def test_pictures_of_a_run_are_made_again(stand, tmp_path) -> None:
     """By `plot` and `replay`; they print the paths."""
     footfall("run", stand, "--out", tmp_path / "out")
@@ -195,15 +247,3 @@ def test_diagram_is_written(stand, tmp_path) -> None:
     assert (tmp_path / "deep" / "d.svg").read_text().startswith("<?xml")
     footfall("diagram", stand)
     assert (tmp_path / "standing.svg").exists()
-
-
-def test_help_is_quick() -> None:
-    """Nothing of Drake is imported for it."""
-    import subprocess
-
-    code = (
-        "import sys; from diagrams.cli import app; "
-        "sys.exit(any(name.partition('.')[0] in ('pydrake', 'numpy', 'open3d') "
-        "for name in sys.modules))"
-    )
-    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

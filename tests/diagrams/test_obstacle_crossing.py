@@ -63,6 +63,20 @@ def test_the_eyes_are_right(crossing: Run) -> None:
     assert errors["max_yaw_deg"] < 1.0
 
 
+def test_thinking_takes_its_time(crossing: Run) -> None:
+    """What a sweep shows, and each plan, which begins when it is there."""
+    thinking = crossing.scenario.parameters.thinking
+    maps = crossing.values("obstacle_finder.obstacle_map")[1:]
+    for time, seen in maps:
+        late = time - seen["sensed_at"] - thinking.obstacle_finding
+        assert -1e-6 < late < 2 * 0.025 + 1e-6
+    (known, _), (start, _) = maps[0], crossing.values("executive.motion_plan")[1]
+    plan = crossing.values("executive.motion_plan")[1][1]
+    assert plan["start_time"] == pytest.approx(start, abs=0.026)
+    late = start - known - thinking.crossing_planning
+    assert -1e-6 < late < 3 * 0.025 + 1e-6
+
+
 def test_too_high_an_obstacle_is_refused_before_it_is_reached(tmp_path: Path) -> None:
     """With the reason, the feet where they were."""
     run = _run(tmp_path / "run", "scene.boxes[0].size=[0.05, 1.2, 0.45]", "robot.x=0.1")

@@ -85,7 +85,14 @@ def test_an_environment_by_hand_takes_the_cameras_place(cross) -> None:
     assert result.stdout.startswith(
         "infeasible: the goal (2.50, 0.00) m is inside bucket"
     )
-    assert load_run("out").summary["perception"] is None
+    run = load_run("out")
+    assert run.summary["perception"] is None
+    # Nothing has to be made out in a file: it is planned on as soon as the robot looks.
+    begun = [
+        time for time, v in run.values("executive.status") if v["activity"] == "plan"
+    ]
+    settled = run.scenario.parameters.path_executive.settle_time
+    assert begun == [pytest.approx(settled, abs=0.026)]
 
 
 @pytest.mark.parametrize(

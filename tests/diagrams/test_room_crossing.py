@@ -1,6 +1,7 @@
 """The room crossing closed loop, in contact physics, as short as it can be."""
 
 from collections.abc import Sequence
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -64,7 +65,7 @@ def test_it_looks_walks_and_looks_whether_it_is_there(crossing) -> None:
     """One plan is enough in a room in which nothing moves."""
     states = [value for _, value in crossing.values("executive.status")]
     activities = [value["activity"] for value in states]
-    assert activities == ["look", "move", "look", "stand"]
+    assert activities == ["look", "plan", "move", "look", "plan", "stand"]
     assert states[-1]["state"] == "finished"
 
 
@@ -78,6 +79,22 @@ def test_it_looks_again_on_the_way(crossing) -> None:
         x, y, _ = np.abs([box["center"] for box in look["boxes"]]).T
         from_walls = np.maximum(x - room.length / 2, y - room.width / 2)
         assert np.sum(np.abs(from_walls) > 0.1) == 1
+
+
+def test_thinking_takes_its_time(stopped) -> None:
+    """A look's result, a plan and a stop; what is logged may be an update late."""
+    thinking = stopped.scenario.parameters.thinking
+    for time, seen in stopped.values("executive.environment")[1:]:
+        late = time - seen["sensed_at"] - thinking.room_perception
+        assert -1e-6 < late < 2 * 0.025 + 1e-6
+    latency = {"plan": thinking.room_planning, "replan": thinking.stopping}
+    known = set()
+    for (begun, value), (there, _) in pairwise(stopped.values("executive.status")):
+        if value["activity"] in latency:
+            known.add(value["activity"])
+            late = there - begun - latency[value["activity"]]
+            assert -1e-6 < late < 0.025 + 1e-6
+    assert known == set(latency)
 
 
 def test_perception_is_measured(crossing) -> None:
@@ -106,11 +123,8 @@ def test_it_is_drawn_from_above(crossing) -> None:
 def test_a_box_on_its_way_makes_it_stop_in_balance(stopped) -> None:
     """It stands, has touched nothing, and says why it cannot go there any more."""
     states = [value for _, value in stopped.values("executive.status")]
-    assert [value["activity"] for value in states][:4] == [
-        "look",
-        "move",
-        "stop",
-        "look",
+    assert [value["activity"] for value in states][:6] == [
+        *("look", "plan", "move", "replan", "stop", "look"),
     ]
     summary = stopped.summary
     assert summary["outcome"] == "infeasible"

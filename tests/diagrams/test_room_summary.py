@@ -86,6 +86,17 @@ def test_a_run_is_summed_up() -> None:
     assert room_perception([], SceneParams(), TIMES) is None
 
 
+def test_a_look_is_judged_by_when_it_was_taken() -> None:
+    """Not by when it was worked out: the cart has begun to move since."""
+    mover = MoverParams(name="cart", x=0.0, y=1.0, to_x=3.0, to_y=1.0, time=2.0)
+    scene = SceneParams(movers=[mover])
+    for sensed_at, counted in ((None, False), (1.9, True)):
+        look = (2.1, Environment(FLOOR, (WALL,), sensed_at=sensed_at))
+        data = room_perception([look], scene, TIMES)
+        assert data is not None
+        assert bool(data["errors"]) is counted
+
+
 def test_a_task_without_a_camera_has_no_stages(standing) -> None:
     """Nor one of which no frame was used."""
     assert stage_ms(standing.task().diagram, 3) == {}

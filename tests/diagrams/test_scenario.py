@@ -5,14 +5,15 @@ from math import hypot
 from pathlib import Path
 
 import pytest
+import yaml
 
 from diagrams.scenario import (
     Scenario,
     ScenarioError,
-    list_scenarios,
     load_scenario,
     save_scenario,
 )
+from diagrams.shipped import list_scenarios
 
 STAIRS = "scene: {staircase: {rise: 0.1}}"
 
@@ -99,6 +100,69 @@ def test_overrides_are_applied_in_order() -> None:
     assert scenario.scene.solids()[-1].name == "box/crate"
 
 
+def test_what_systems_share_is_one_field() -> None:
+    """Period, friction, the CoM's height and the time of a scan line."""
+    scenario = load_scenario(
+        "stairs-exp1",
+        [
+            "parameters.control_period=0.01",
+            "parameters.friction=0.3",
+            "parameters.com_height=0.8",
+            "sensors.lidar.line_period=0.05",
+            "task.steps_between_scans=3",
+        ],
+    )
+    params = scenario.controllers()
+    parts = (params.motion_planner, params.zmp_preview, params.landing, params.ik)
+    assert {part.period for part in parts} == {params.control_period} == {0.01}
+    assert (
+        {
+            params.stabilizer.distribution.friction,
+            params.motion_planner.quasi_static.friction,
+            params.crossing.quasi_static.friction,
+        }
+        == {params.friction}
+        == {0.3}
+    )
+    heights = (params.motion_planner.com_height, params.zmp_preview.com_height)
+    assert heights == (0.8, 0.8)
+    assert params.footstep_planner.steps_between_scans == 3
+    assert params.scan_assembler.period == scenario.lidar().line_period == 0.05
+
+
+@pytest.mark.parametrize(
+    ("field", "one"),
+    [
+        ("parameters.ik.period", "parameters.control_period"),
+        ("parameters.landing.period", "parameters.control_period"),
+        ("parameters.motion_planner.period", "parameters.control_period"),
+        ("parameters.zmp_preview.period", "parameters.control_period"),
+        ("parameters.motion_planner.com_height", "parameters.com_height"),
+        ("parameters.zmp_preview.com_height", "parameters.com_height"),
+        ("parameters.stabilizer.distribution.friction", "parameters.friction"),
+        ("parameters.motion_planner.quasi_static.friction", "parameters.friction"),
+        ("parameters.crossing.quasi_static.friction", "parameters.friction"),
+        ("parameters.scan_assembler.period", "sensors.lidar.line_period"),
+        (
+            "parameters.footstep_planner.steps_between_scans",
+            "task.steps_between_scans",
+        ),
+    ],
+)
+def test_a_second_field_for_the_same_is_refused(
+    field: str, one: str, tmp_path: Path
+) -> None:
+    """With the one that there is; what is saved has that alone."""
+    message = _message("stairs-exp1", f"{field}=0.5")
+    assert message.endswith(f": {field}: no such field; did you mean {one}?")
+    path = tmp_path / "resolved.yaml"
+    save_scenario(load_scenario("stairs-exp1"), path)
+    data = yaml.safe_load(path.read_text())
+    for name in field.split(".")[:-1]:
+        data = data[name]
+    assert field.rsplit(".", maxsplit=1)[-1] not in data
+
+
 def test_one_seed_rules_the_scanner() -> None:
     """The run's seed moves the scanner's."""
     scenario = load_scenario(
@@ -124,6 +188,10 @@ def test_one_seed_rules_the_scanner() -> None:
         ("scene.boxes=[{size: [1]}]", "scene.boxes[0].size: must have 3 elements, got"),
         ("sensors.lidar.noise=-1", "sensors.lidar.noise: must be at least 0 m, got -1"),
         ("parameters.segmenter.voxel_size=0", "parameters.segmenter.voxel_size: must "),
+        (
+            "parameters.footstep_planner.stance_width=0.05",
+            "parameters.footstep_planner.stance_width: must lie between 0.114 m (two ",
+        ),
         ("robot.name=hrp4", "robot.name: must be one of jvrc1, got 'hrp4'"),
         ("robot.x=20", "robot: must start inside the room, got x 20 m, y 0 m"),
         (
@@ -134,10 +202,31 @@ def test_one_seed_rules_the_scanner() -> None:
             "task.mode=fast",
             "task.mode: must be one of dynamic, quasi_static, got 'fast'",
         ),
+        ("task.goal=[1, 0, 7]", "task.goal[2]: must be at most a turn, got 7 rad"),
         ("task.steps_between_scans=0", "task.steps_between_scans: must be at least 1"),
-        ("task.pushes=[{body: HEAD}]", "task.pushes[0].body: jvrc1 has no link 'HEAD'"),
+        (
+            "task.pushes=[{body: HEAD, force: [1, 0, 0]}]",
+            "task.pushes[0].body: jvrc1 has no link 'HEAD'",
+        ),
+        ("task.pushes=[{}]", "task.pushes[0].force: must not be zero, got [0.0, 0.0, "),
         ("task.pushes=[{force: [1]}]", "task.pushes[0].force: must have 3 elements, g"),
-        ("simulation.time_step=0", "simulation.time_step: must be positive, got 0 s"),
+        ("simulation.time_step=0", "simulation.time_step: must be at least 1e-05"),
+        (
+            "parameters.control_period=0.004",
+            "parameters.control_period: must be a multiple of simulation.time_step, ",
+        ),
+        (
+            "parameters.control_period=0.001",
+            "parameters.control_period: must be a multiple of simulation.time_step, ",
+        ),
+        (
+            "parameters.crossing.sampling=0.012",
+            "parameters.crossing.sampling: must be a multiple of parameters.control_p",
+        ),
+        (
+            "parameters.scan_assembler.offset=0.03",
+            "parameters.scan_assembler.offset: must be less than the period, got 0.03",
+        ),
         ("simulation.seed=-1", "simulation.seed: must be at least 0, got -1"),
     ],
 )

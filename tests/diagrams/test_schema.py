@@ -6,23 +6,19 @@ from typing import Any
 import pytest
 
 from diagrams.schema import FieldError, check, parse_yaml, set_field, validate
+from models.validation import Parameters, number
 
 
 @dataclass(kw_only=True)
-class Wheel:
+class Wheel(Parameters):
     """A part."""
 
-    radius: float = 0.3
-    spokes: int = 12
-
-    def validate(self) -> None:
-        """Refuses a wheel without spokes."""
-        if self.spokes < 1:
-            raise ValueError(f"spokes: must be at least 1, got {self.spokes}")
+    radius: float = number(0.3, "m", above=0.0)
+    spokes: int = number(12, least=1)
 
 
 @dataclass(kw_only=True)
-class Cart:
+class Cart(Parameters):
     """A whole."""
 
     name: str = "cart"

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from matplotlib.image import imread
+from pypcd4 import Encoding, PointCloud
 
 from diagrams.segmenting import segment_file
 from systems.perception.cloud_files import CloudFileError
@@ -40,6 +41,7 @@ def test_json_and_picture_of_a_staircase(tmp_path: Path) -> None:
     assert document["cloud"] == "steps.npz"
     assert document["points"] == result.points == 21500
     assert document["planes"] == to_json(result.segmentation.planes)
+    assert document["doubts"] == []
     assert len(document["staircase"]["treads"]) == 3
     sizes = [tread["size"] for tread in document["staircase"]["treads"]]
     np.testing.assert_allclose(sizes, [[0.3, 0.8]] * 3, atol=0.015)
@@ -59,8 +61,21 @@ def test_cloud_without_planes(tmp_path: Path) -> None:
     np.savetxt(tmp_path / "noise.xyz", cloud)
     result = segment_file(tmp_path / "noise.xyz", GRAVITY, tmp_path)
     assert result.segmentation.planes == ()
-    assert json.loads(result.planes_json.read_text(encoding="utf-8"))["planes"] == []
+    document: Any = json.loads(result.planes_json.read_text(encoding="utf-8"))
+    assert document["planes"] == []
+    saw, doubt = document["doubts"]
+    assert saw.startswith("500 points in 2 x 1.99 x 1.99 m, typically 0.14 m")
+    assert doubt.startswith("its points are farther apart")
+    assert result.doubts == (saw, doubt)
     assert result.planes_png.stat().st_size > 1000
+
+
+def test_a_cloud_of_doubles_has_its_planes(tmp_path: Path) -> None:
+    """As a binary .pcd file in double precision: the same treads."""
+    cloud = PointCloud.from_points(steps(), ("x", "y", "z"), (np.float64,) * 3)
+    cloud.save(tmp_path / "steps.pcd", Encoding.BINARY)
+    result = segment_file(tmp_path / "steps.pcd", GRAVITY, tmp_path)
+    assert len(result.segmentation.staircase.treads) == 3
 
 
 @pytest.mark.parametrize("down", [[0.0, -1.0, 0.0], [1.0, 1.0, 0.2]])

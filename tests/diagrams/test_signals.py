@@ -10,7 +10,6 @@ from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import DiagramBuilder
 from pydrake.systems.primitives import (
     ConstantValueSource,
-    ConstantVectorSource,
     Sine,
 )
 
@@ -57,7 +56,7 @@ def test_run_comes_back_as_it_was(tmp_path) -> None:
     frame = run.signals["sine.y"]
     assert list(frame.columns) == ["time", "knee", "hip"]
     assert frame.attrs["units"] == {"time": "s", "knee": "rad", "hip": "Nm"}
-    assert len(frame) == 201
+    assert len(frame) == 200
     np.testing.assert_allclose(frame["hip"], 2.0 * np.sin(3.0 * frame["time"]))
     np.testing.assert_allclose(np.diff(frame["time"]), 0.005)
     assert run.values("executive.status") == [
@@ -88,13 +87,39 @@ def test_signal_that_was_not_logged_is_named(tmp_path) -> None:
     assert "nope" not in run.signals
 
 
-@pytest.mark.parametrize("missing", ["summary.json", "scenario.yaml"])
+@pytest.mark.parametrize("missing", ["signals", "scenario.yaml"])
 def test_what_is_no_run_is_refused(tmp_path, missing) -> None:
     """The error names the folder and what it lacks."""
     write_run(tmp_path / "run")
-    (tmp_path / "run" / missing).unlink()
+    (tmp_path / "run" / missing).rename(tmp_path / "elsewhere")
     with pytest.raises(RunError, match=f"run: not a run folder, it has no {missing}"):
         load_run(tmp_path / "run")
+
+
+def test_a_run_without_summary_was_cut(tmp_path) -> None:
+    """It says when, and gives what it logged; a torn last line is left out."""
+    write_run(tmp_path / "run")
+    (tmp_path / "run" / "summary.json").unlink()
+    lines = tmp_path / "run" / "signals" / "executive.status.jsonl"
+    with lines.open("ab") as file:
+        file.write(b'{"time": 0.5, "val')
+    run = load_run(tmp_path / "run")
+    assert run.summary["outcome"] == "cut"
+    assert "the last that it logged was at 0.99 s" in run.summary["reason"]
+    assert run.summary["scenario"] == run.scenario.name
+    assert run.summary["seed"] == 0
+    assert run.summary["simulated_time_s"] == pytest.approx(0.995)
+    assert len(run.values("executive.status")) == 1
+
+
+def test_a_run_that_was_cut_at_once_has_logged_nothing(tmp_path) -> None:
+    """And says so."""
+    scenario = Scenario(name="s", scene=SceneParams(staircase=StaircaseParams()))
+    save_scenario(scenario, tmp_path / "scenario.yaml")
+    (tmp_path / "signals").mkdir()
+    run = load_run(tmp_path)
+    assert "was at 0.00 s" in run.summary["reason"]
+    assert list(run.signals) == []
 
 
 def test_missing_folder_is_refused(tmp_path) -> None:
@@ -104,33 +129,12 @@ def test_missing_folder_is_refused(tmp_path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "columns", "units", "message"),
-    [
-        ("y", ("a", "b"), "m", "named SYSTEM.PORT, got 'y'"),
-        ("../x.y", ("a", "b"), "m", "named SYSTEM.PORT"),
-        ("s.y", ("a",), "m", "2 elements, got 1 columns and 1 units"),
-        ("s.y", ("a", "b"), ("m",), "2 elements, got 2 columns and 1 units"),
-        ("s.y", ("a", "a"), "m", "columns must be unique"),
-        ("s.y", ("a", "time"), "m", "columns must be unique"),
-        ("taken.y", ("a", "b"), "m", "taken.y: logged twice"),
-    ],
-)
-def test_ill_declared_signals_are_refused(name, columns, units, message) -> None:
-    """Where they are declared, not when the run is written."""
-    builder = DiagramBuilder()
-    source = builder.AddNamedSystem("source", ConstantVectorSource(np.zeros(2)))
-    recorder = SignalRecorder(builder)
-    recorder.add_vector("taken.y", source.get_output_port(), ("a", "b"), "m", 0.1)
-    with pytest.raises(ValueError, match=message):
-        recorder.add_vector(name, source.get_output_port(), columns, units, 0.1)
-
-
-@pytest.mark.parametrize(
     ("name", "damage"),
     [
         ("summary.json", b""),
         ("summary.json", b"[1]"),
         ("signals/source.y0.parquet", b"PAR1"),
+        ("signals/source.y0.arrows", b"PAR1"),
         ("signals/source.value.jsonl", b'{"time": 0.0, "val'),
         ("signals/source.value.jsonl", b"3\n"),
     ],

@@ -89,11 +89,45 @@ def test_it_scans_between_climbs(climb: Run) -> None:
     assert activities.count("scan") >= 3
     for before, after in pairwise(activities):
         if after == "move":
+            assert before == "plan"
+        if after == "plan":
             assert before == "scan"
     assert activities[-1] == "stand"
     for _, plan in climb.values("executive.footstep_plan"):
         planes = {step["plane"] for step in plan["footsteps"]} - {-1}
         assert len(planes) <= 2
+
+
+def test_thinking_takes_its_time(climb: Run) -> None:
+    """What a sweep says, and each plan; what is logged may be an update late."""
+    thinking = climb.scenario.parameters.thinking
+    for time, seen in climb.values("staircase_map.segmentation")[1:]:
+        late = time - seen["sensed_at"] - thinking.segmentation
+        assert -1e-6 < late < 2 * 0.025 + 1e-6
+    status = climb.values("executive.status")
+    plans = 0
+    for (begun, value), (there, _) in pairwise(status):
+        if value["activity"] == "plan":
+            plans += 1
+            assert -1e-6 < there - begun - thinking.climb_planning < 0.025 + 1e-6
+    assert plans >= 3
+
+
+def test_a_plan_still_fits_when_it_is_there(climb: Run) -> None:
+    """Nothing that it begins with has moved since it was begun."""
+    status = climb.values("executive.status")
+    plans = 0
+    for (begun, value), (there, after) in pairwise(status):
+        if (value["activity"], after["activity"]) != ("plan", "move"):
+            continue
+        plans += 1
+        for name in ("feet.wanted", "reference.com"):
+            signal = climb.signals[name]
+            time = signal["time"]
+            thinking = signal[(time > begun) & (time < there - 0.03)].to_numpy()[:, 1:4]
+            assert len(thinking) > 10
+            assert np.ptp(thinking, axis=0).max() < 1e-6
+    assert plans >= 2
 
 
 def test_signals_open_in_pandas(climb: Run) -> None:

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from diagrams.falls import base_height
-from diagrams.scenario import ScenarioError, list_scenarios, load_scenario
+from diagrams.scenario import ScenarioError, load_scenario
+from diagrams.shipped import list_scenarios
 from diagrams.simulation import simulate
 from diagrams.task_params import TASKS
 from diagrams.tasks import BUILDERS, build_task

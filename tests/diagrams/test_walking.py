@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from pydrake.math import RigidTransform
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import Context, DiagramBuilder
 
@@ -11,7 +12,16 @@ from diagrams.task_diagram import TaskDiagram
 from diagrams.tasks import build_task
 from diagrams.walking import Stand, initial_stand
 from models.jvrc1 import JVRC1
+from systems.balance.zmp_preview import (
+    preview_gains,
+    preview_step,
+    rest_error_sum,
+    rest_state,
+)
+from systems.planning.motion import plan_motion
+from systems.planning.motion_player import zmp_preview
 from systems.ports import Vector, eval_vector
+from systems.values import Footstep
 
 OVERRIDES = ("robot.x=-0.5", "robot.y=0.4", "robot.yaw=0.5", "scene.staircase.x=1.0")
 
@@ -52,7 +62,11 @@ def test_the_stand_is_on_the_floor_under_the_start_pose(overrides) -> None:
     np.testing.assert_allclose(com, stand.com, atol=2e-3)
     assert stand.com[2] == 0.85
     ahead = (stand.com[:2] - [x, y]) @ [np.cos(yaw), np.sin(yaw)]
+    planner = load_scenario("stairs-exp1").parameters.motion_planner
+    assert ahead == pytest.approx(planner.zmp_forward)
     assert 0.0 < ahead < JVRC1.sole.toe
+    aside = (stand.com[:2] - [x, y]) @ [-np.sin(yaw), np.cos(yaw)]
+    assert aside == pytest.approx(0.0, abs=1e-9)
     for foot, pose, side in zip(
         ("left", "right"), stand.foot_poses, (1.0, -1.0), strict=True
     ):
@@ -94,6 +108,37 @@ def test_contacts_and_references_are_those_of_the_plan(stood) -> None:
         )
 
 
+@pytest.mark.parametrize(
+    ("port", "system", "target"),
+    [
+        ("contacts", "stabilizer", "contacts"),
+        ("contacts", "ik_tracker", "contacts"),
+        ("contacts", "static_stability", "contacts"),
+        ("foot_references", "stabilizer", "foot_references"),
+        ("foot_references", "ik_tracker", "foot_references"),
+    ],
+)
+def test_balance_and_tracking_go_by_the_feet_that_have_landed(
+    stood, port: str, system: str, target: str
+) -> None:
+    """Not by the plan's, from which they differ about a touch-down."""
+    task, root = stood
+    root = root.Clone()
+    landing = task.diagram.GetSubsystemByName("landing_adaptor")
+    context = landing.GetMyMutableContextFromRoot(root)
+    state = context.get_discrete_state(0).value()
+    context.SetDiscreteState(0, state - 0.25)
+    adapted = eval_vector(landing.GetOutputPort(port), context)
+    player = task.diagram.GetSubsystemByName("motion_player")
+    planned = eval_vector(player.GetOutputPort(port), player.GetMyContextFromRoot(root))
+    assert (np.abs(adapted - planned) > 0.1).all()
+    subsystem = task.diagram.GetSubsystemByName(system)
+    seen = eval_vector(
+        subsystem.GetInputPort(target), subsystem.GetMyContextFromRoot(root)
+    )
+    np.testing.assert_array_equal(seen, adapted)
+
+
 def test_controllers_share_their_period(stood) -> None:
     """Every fast loop ticks at 5 ms; only events ask for abstract state."""
     task, _ = stood
@@ -101,3 +146,34 @@ def test_controllers_share_their_period(stood) -> None:
         system = task.diagram.GetSubsystemByName(name)
         assert system.GetUniquePeriodicDiscreteUpdateAttribute().period_sec() == 0.005
         assert system.num_abstract_states() == 0
+
+
+@pytest.mark.parametrize("rise", [0.0, 0.2])
+def test_a_plan_comes_into_view_of_the_preview_without_a_jump(rise: float) -> None:
+    """Though its lead-in is shorter: the CoM's ZMP is the plan's from the start.
+
+    Two treads up, or two steps ahead on the floor, until the first foot lifts; by 5 mm
+    a tick at most.
+    """
+    params = load_scenario("stairs-exp1").controllers()
+    feet: Vector = np.array([[0.0, 0.095, 0, 0, 0, 0], [0.0, -0.095, 0, 0, 0, 0]])
+    com = np.array([params.motion_planner.zmp_forward, 0.0, params.com_height])
+    footsteps = tuple(
+        Footstep(foot, RigidTransform([0.27 * n, y, rise * n]), -1)
+        for n in (1, 2)
+        for foot, y in (("right", -0.095), ("left", 0.095))
+    )
+    edges = np.array([[0.2, 0.0, rise], [0.47, 0.0, 2.0 * rise]])
+    plan = plan_motion(
+        feet, com, footsteps, edges, params.motion_planner, params.zmp_preview, JVRC1
+    )
+    gains = preview_gains(params.zmp_preview)
+    state, error = rest_state(com[:2]), rest_error_sum(gains, com[:2])
+    rows = round(params.motion_planner.lead_in / params.control_period)
+    assert rows < gains.horizon
+    for row in range(rows):
+        window = zmp_preview(plan, row, gains.horizon).reshape(2, -1)
+        before = state @ gains.C
+        np.testing.assert_allclose(before, plan.cart_zmp[row], atol=0.005)
+        state, error, _ = preview_step(gains, state, error, window)
+        assert np.abs(state @ gains.C - before).max() < 0.005

@@ -16,15 +16,16 @@ def test_are_those_of_the_plant() -> None:
     plant.Finalize()
     inspector = scene_graph.model_inspector()
     for hull in collision_hulls(JVRC1):
-        (geometry,) = [
-            item
+        meshes = [
+            inspector.GetConvexHull(item)
             for item in plant.GetCollisionGeometriesForBody(
                 plant.GetBodyByName(hull.body)
             )
             if "hull" in inspector.GetName(item)
         ]
-        mesh = inspector.GetConvexHull(geometry)
-        vertices = np.array([mesh.vertex(i) for i in range(mesh.num_vertices())])
+        vertices = np.array(
+            [mesh.vertex(i) for mesh in meshes for i in range(mesh.num_vertices())]
+        )
         np.testing.assert_allclose(hull.vertices.min(0), vertices.min(0), atol=1e-6)
         np.testing.assert_allclose(hull.vertices.max(0), vertices.max(0), atol=1e-6)
 

@@ -12,6 +12,7 @@ from pydrake.multibody.tree import SpatialInertia
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import DiagramBuilder
 
+from models.contact_geometry import SOLE_FRICTION
 from models.solids import Box, add_solids, solid_name, triangle_mesh, upright_pose
 from models.staircase import StaircaseParams
 
@@ -59,7 +60,11 @@ def test_ball_rests_on_the_step_that_contact_names() -> None:
     plant.set_contact_model(ContactModel.kPoint)
     ball = plant.AddRigidBody("ball", SpatialInertia.SolidSphereWithMass(mass, radius))
     plant.RegisterCollisionGeometry(
-        ball, upright_pose(), Sphere(radius), "ball", CoulombFriction(1.0, 1.0)
+        ball,
+        upright_pose(),
+        Sphere(radius),
+        "ball",
+        CoulombFriction(SOLE_FRICTION, SOLE_FRICTION),
     )
     stairs = StaircaseParams(steps=3, rise=0.2, run=0.3, x=0.5)
     add_solids(plant, stairs.solids())
@@ -80,8 +85,6 @@ def test_ball_rests_on_the_step_that_contact_names() -> None:
     query = plant.get_geometry_query_input_port().Eval(context)
     names = {solid_name(query.inspector(), item) for item in (pair.id_A, pair.id_B)}
     assert names == {"ball", "staircase/step_2"}
-    # Half-way between equal coefficients lies the coefficient itself.
-    expected = 2.0 * 1.0 * stairs.friction / (1.0 + stairs.friction)
     force = contacts.point_pair_contact_info(0).contact_force()
     assert abs(force[2]) == pytest.approx(mass * 9.81, rel=1e-3)
     properties = [
@@ -90,4 +93,4 @@ def test_ball_rests_on_the_step_that_contact_names() -> None:
     ]
     mu = [item.GetProperty("material", "coulomb_friction") for item in properties]
     m1, m2 = (item.static_friction() for item in mu)
-    assert 2.0 * m1 * m2 / (m1 + m2) == pytest.approx(expected)
+    assert 2.0 * m1 * m2 / (m1 + m2) == pytest.approx(stairs.friction)

@@ -60,6 +60,7 @@ from systems.sensing.robot_contacts import WatchedGeometry
 from systems.sensing.speed_monitor import SpeedMonitor
 from systems.sensing.tilting_lidar import TiltingLidar, TiltingLidarParams
 from systems.sensing.wanted_torque import WantedTorque
+from systems.signal_log import SignalLog
 from systems.tracking.ik_tracker import IkTracker
 from systems.tracking.whole_body_feedforward import WholeBodyFeedforward
 from systems.tracking.whole_body_ik import IkParams
@@ -140,7 +141,7 @@ FACTORIES: dict[type[LeafSystem], Callable[[], LeafSystem]] = {
         FootstepPlannerParams(), JVRC1.sole
     ),
     PathPlanner: PathPlanner,
-    PlaneSegmenter: PlaneSegmenter,
+    PlaneSegmenter: lambda: PlaneSegmenter(JVRC1.sole),
     Pusher: lambda: Pusher([]),
     ScanAssembler: lambda: ScanAssembler(
         ScanAssemblerParams(),
@@ -148,6 +149,7 @@ FACTORIES: dict[type[LeafSystem], Callable[[], LeafSystem]] = {
         mount_body=1,
         X_BM=RigidTransform(),
     ),
+    SignalLog: lambda: SignalLog(0.1),
     SpeedMonitor: lambda: SpeedMonitor(*robot_alone(), 0.0025),
     Stabilizer: lambda: Stabilizer(StabilizerParams(), JVRC1.sole, 62.4),
     StaircaseMap: StaircaseMap,

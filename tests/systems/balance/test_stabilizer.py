@@ -191,5 +191,5 @@ def test_parameters_out_of_range_are_refused(field: str, value: float) -> None:
         Stabilizer(StabilizerParams(**{field: value}), JVRC1.sole, MASS)
     params = StabilizerParams()
     params.distribution.friction = 0.0
-    with pytest.raises(ValueError, match=r"^friction: "):
+    with pytest.raises(ValueError, match=r"^distribution\.friction: "):
         Stabilizer(params, JVRC1.sole, MASS)

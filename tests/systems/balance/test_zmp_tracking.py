@@ -37,14 +37,18 @@ def away_from_jumps(reference: np.ndarray, margin: float) -> np.ndarray:
     return (np.abs(times[:, None] - times[jumps]) > margin).all(axis=1)
 
 
-def test_it_is_the_optimum_of_a_dense_programme() -> None:
+@pytest.mark.parametrize("weighted", [False, True])
+def test_it_is_the_optimum_of_a_dense_programme(weighted: bool) -> None:
     """Jerks as unknowns, states by simulation, KKT system dense: another route."""
     ticks = 240
     rng = np.random.default_rng(0)
     c = 0.08 + 0.02 * np.sin(np.arange(ticks) * 0.05)
     reference = np.repeat(rng.uniform(-0.2, 0.2, (4, 2)), ticks // 4, axis=0)
     start = np.array([[0.05, 0.1, 0.2], [-0.02, -0.1, 0.4]])
-    motion = generate_varying_height(reference, c, PARAMS, start)
+    weight = np.geomspace(1e-3, 1.0, ticks) if weighted else np.ones(ticks)
+    motion = generate_varying_height(
+        reference, c, PARAMS, start, weight if weighted else None
+    )
 
     A, B = cart(T)
     free, forced = [np.eye(3)], [np.zeros((3, ticks))]
@@ -62,12 +66,15 @@ def test_it_is_the_optimum_of_a_dense_programme() -> None:
     Z, last = Z[:, keep], forced[-1][:, keep]
     # Conditioning: unknowns in units of 100 m/s^3.
     unit = 100.0
-    H = unit**2 * (Z.T @ Z + PARAMS.jerk_weight * D.T @ D)
+    H = unit**2 * (Z.T @ (weight[:, None] * Z) + PARAMS.jerk_weight * D.T @ D)
     kkt = np.block([[H, unit * last.T], [unit * last, np.zeros((3, 3))]])
     goal = np.zeros((3, 2))
     goal[0] = reference[-1]
     rhs = np.vstack(
-        [unit * Z.T @ (reference - Z0 @ start.T), goal - free[-1] @ start.T]
+        [
+            unit * Z.T @ (weight[:, None] * (reference - Z0 @ start.T)),
+            goal - free[-1] @ start.T,
+        ]
     )
     jerk = unit * np.linalg.solve(kkt, rhs)[:-3]
     com = np.einsum("nt,ti->ni", np.array(forced)[:, 0, keep], jerk)
@@ -124,3 +131,10 @@ def test_what_is_no_plan_is_refused(ticks: int, c: np.ndarray, field: str) -> No
     """Too short, of another length, or without height."""
     with pytest.raises(ValueError, match=f"{field}: must"):
         generate_varying_height(np.zeros((ticks, 2)), c, PARAMS)
+
+
+def test_a_weight_that_is_none_is_refused() -> None:
+    """Of another length, or zero."""
+    for weight in (np.ones(8), np.zeros(9)):
+        with pytest.raises(ValueError, match="weight: must"):
+            generate_varying_height(np.zeros((9, 2)), np.ones(9), PARAMS, weight=weight)

@@ -7,8 +7,9 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 import numpy as np
-import open3d as o3d
 import pytest
+
+from systems.open3d_loader import open3d as o3d
 
 Array: TypeAlias = np.ndarray[Any, np.dtype[np.float64]]
 

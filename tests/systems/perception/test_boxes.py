@@ -180,3 +180,16 @@ def test_wrong_parameters_are_named(field: str, value: float) -> None:
     """The message begins with the field."""
     with pytest.raises(ValueError, match=f"^{field}"):
         ObstacleClusterer(replace(ObstacleClustererParams(), **{field: value}))
+
+
+@pytest.mark.parametrize("tail", [0.0, 0.04, 0.2])
+def test_what_the_tails_would_span_is_added(tail: float) -> None:
+    """Of points that fill a rectangle evenly: its sides, whatever is left out."""
+    x, y = np.meshgrid(np.linspace(-0.3, 0.3, 101), np.linspace(-0.2, 0.2, 101))
+    angle = 0.2
+    turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
+    plan = np.column_stack([x.ravel(), y.ravel()]) @ turn + [1.0, 2.0]
+    # The yaw is less sure the more is left out.
+    middle, _, extent = even_rectangle(plan, tail)
+    np.testing.assert_allclose(middle, [1.0, 2.0], atol=2e-3)
+    np.testing.assert_allclose(extent, [0.6, 0.4], atol=0.015)

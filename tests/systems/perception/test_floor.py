@@ -7,6 +7,7 @@ import pytest
 from pydrake.common.value import AbstractValue
 from pydrake.common.yaml import yaml_load_typed
 
+from systems.perception import floor
 from systems.perception.depth_cloud import point_cloud
 from systems.perception.floor import FloorParams, extract_floor
 from systems.perception.floor_extractor import FloorExtractor
@@ -71,6 +72,35 @@ def test_share_may_be_less_than_the_papers() -> None:
     assert estimate.floor is not None
     assert estimate.floor.inlier_share == pytest.approx(0.3, abs=0.01)
     np.testing.assert_allclose(estimate.floor.coefficients, [0, 0, 1, 0], atol=0.003)
+
+
+@pytest.mark.parametrize("share", [0.3, 0.5, 0.7])
+def test_as_many_planes_are_tried_as_the_share_asks_for(
+    share: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Three points, each on the floor with its share, all three once in 999 of 1000."""
+    tried = 0
+    judge = floor._planes
+
+    def counting(triple: np.ndarray, max_tilt: float) -> np.ndarray:
+        nonlocal tried
+        tried += len(triple)
+        return judge(triple, max_tilt)
+
+    monkeypatch.setattr(floor, "_planes", counting)
+    total = 20_000
+    level = sheet([-3, -2, 0], [3, 2, 0], round(share * total))
+    above = sheet([-3, -2, 0.3], [3, 2, 2.0], total - len(level))
+    # Each point judges and gets a normal, that the share is just that.
+    params = FloorParams(normal_points=total, noise=RangeNoise(near=0.0, growth=0.0))
+    estimate, _ = extract_floor(np.vstack([level, above]), EYE, params)
+    assert estimate.floor is not None
+    found = estimate.floor.inlier_share
+    assert found == pytest.approx(share, abs=0.01)
+    missed = (1.0 - min(found, params.expected_share) ** 3) ** tried
+    assert missed <= 1.0 - params.confidence
+    fewer = (1.0 - min(found, params.expected_share) ** 3) ** (tried - floor.BATCH)
+    assert fewer > 1.0 - params.confidence
 
 
 @pytest.mark.parametrize(

@@ -64,7 +64,7 @@ def test_it_hands_on_what_the_core_finds() -> None:
     simulator.AdvanceTo(0.06)
     found, sweep = _seen(system, context)
     assert sweep == 1
-    assert found == find_obstacles(points, EYES, params)
+    assert found == replace(find_obstacles(points, EYES, params), sensed_at=0.0)
     (obstacle,) = found.obstacles
     assert obstacle.height == pytest.approx(0.15, abs=0.01)
 
@@ -87,6 +87,36 @@ def test_it_looks_once_a_sweep() -> None:
     assert second.obstacles[0].height > first.obstacles[0].height + 0.05
 
 
+def test_what_a_sweep_shows_is_there_after_the_time_it_takes() -> None:
+    """Of the cloud and the viewpoint of when it began; the next sweep waits."""
+    system = ObstacleFinder(replace(ObstacleFinderParams(), period=0.05), latency=0.3)
+    simulator = Simulator(system)
+    context = simulator.get_mutable_context()
+    low, high = _scene(0.15), _scene(0.25)
+    _give(system, context, low, 0)
+    simulator.AdvanceTo(0.12)
+    _give(system, context, low, 1)
+    simulator.AdvanceTo(0.17)
+    _give(system, context, high, 2)
+    system.GetInputPort("viewpoint").FixValue(context, EYES + 0.2)
+    simulator.AdvanceTo(0.44)
+    nothing, count = _seen(system, context)
+    assert (nothing.status, count) == ("none", 0)
+    expected = []
+    for points, eyes, sweep, time in (
+        (low, EYES, 1, 0.15),
+        (high, EYES + 0.2, 2, 0.45),
+    ):
+        simulator.AdvanceTo(time + 0.31)
+        found, count = _seen(system, context)
+        assert count == sweep
+        assert found.sensed_at == pytest.approx(time)
+        plain = find_obstacles(points, eyes, ObstacleFinderParams())
+        assert replace(found, sensed_at=None) == plain
+        expected.append(plain)
+    assert expected[0] != expected[1]
+
+
 def test_an_empty_cloud_has_no_floor() -> None:
     """That is data, no error."""
     system = ObstacleFinder()
@@ -101,3 +131,5 @@ def test_a_wrong_parameter_is_refused() -> None:
     """When the System is made."""
     with pytest.raises(ValueError, match="period"):
         ObstacleFinder(replace(ObstacleFinderParams(), period=0.0))
+    with pytest.raises(ValueError, match="latency"):
+        ObstacleFinder(latency=-1.0)

@@ -9,6 +9,7 @@ from systems.perception.obstacles import (
     ObstacleFinderParams,
     find_obstacles,
     floor_height,
+    low_patches,
 )
 from systems.ports import Vector
 
@@ -67,6 +68,33 @@ def test_size_place_and_yaw(yaw: float, height: float) -> None:
     assert found.length == pytest.approx(1.0, abs=0.05)
 
 
+@pytest.mark.parametrize("width", [0.05, 0.1, 0.2])
+def test_no_obstacle_is_seen_narrower_than_it_is(width: float) -> None:
+    """Its back edge lies up to a scan line beyond the last points: that is added."""
+    cloud = _cloud([(1.2, 0.1, 0.2, width, 1.0, 0.15)])
+    (found,) = find_obstacles(cloud, EYES, ObstacleFinderParams()).obstacles
+    ahead = np.array([np.cos(0.2), np.sin(0.2)])
+    back = found.center @ ahead + 0.5 * found.width
+    true = np.array([1.2, 0.1]) @ ahead + 0.5 * width
+    assert true <= back < true + 0.01
+
+
+def test_the_allowance_moves_the_back_alone() -> None:
+    """By as much as it is; front, height and length stay."""
+    cloud = _cloud([(1.2, 0.1, 0.2, 0.05, 1.0, 0.15)])
+    bare, allowed = (
+        find_obstacles(
+            cloud, EYES, replace(ObstacleFinderParams(), back_allowance=allowance)
+        ).obstacles[0]
+        for allowance in (0.0, 0.02)
+    )
+    ahead = np.array([np.cos(bare.yaw), np.sin(bare.yaw)])
+    assert allowed.width - bare.width == pytest.approx(0.02)
+    np.testing.assert_allclose(allowed.center - bare.center, 0.01 * ahead, atol=1e-12)
+    assert (allowed.yaw, allowed.height) == (bare.yaw, bare.height)
+    assert allowed.length == pytest.approx(bare.length)
+
+
 def test_two_in_a_row_are_two_nearest_first() -> None:
     """60 cm apart."""
     boxes = [(1.7, 0.0, 0.0, 0.05, 1.0, 0.15), (1.1, 0.0, 0.0, 0.05, 1.0, 0.15)]
@@ -91,7 +119,7 @@ def test_floor_height_is_the_densest_level() -> None:
 
 def test_validation() -> None:
     """A field out of range is named."""
-    with pytest.raises(ValueError, match="tail: must lie"):
+    with pytest.raises(ValueError, match="tail: must be less than"):
         replace(ObstacleFinderParams(), tail=0.4).validate()
 
 
@@ -106,6 +134,28 @@ def test_a_slat_lower_than_the_noise_is_seen(height: float) -> None:
     assert found.width == pytest.approx(0.05, abs=0.03)
     assert found.center == pytest.approx([1.2, 0.1], abs=0.02)
     assert found.length == pytest.approx(1.0, abs=0.08)
+
+
+@pytest.mark.parametrize("count", [4, 25, 100])
+def test_a_patch_is_raised_by_five_deviations_of_its_mean(count: int) -> None:
+    """Which falls with the root of its points: a little less is the floor's noise."""
+    params = replace(ObstacleFinderParams(), low_height=1e-6)
+    plan = np.random.default_rng(0).uniform(0.0, 0.02, (count, 2))
+    points = np.column_stack([plan, np.zeros(count)])
+    least = 5.0 * params.deviation / np.sqrt(count)
+    for share, raised in ((0.95, False), (1.05, True)):
+        height = np.full(count, share * least)
+        wide = replace(params, min_height=1.0)
+        assert (low_patches(points, height, wide) == raised).all()
+
+
+@pytest.mark.parametrize("tail", [0.0, 0.02, 0.1])
+def test_the_length_does_not_depend_on_the_tail(tail: float) -> None:
+    """What the ends that are left out would span is added."""
+    params = replace(ObstacleFinderParams(), tail=tail)
+    cloud = _cloud([(1.2, 0.1, 0.2, 0.05, 1.0, 0.15)], noise=0.001)
+    (found,) = find_obstacles(cloud, EYES, params).obstacles
+    assert found.length == pytest.approx(1.0, abs=0.015)
 
 
 def test_the_noise_of_the_floor_is_no_slat() -> None:

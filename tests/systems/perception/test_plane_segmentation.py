@@ -9,6 +9,8 @@ import pytest
 from pydrake.common.yaml import yaml_dump_typed, yaml_load_typed
 from pydrake.math import RollPitchYaw
 
+from models.jvrc1 import JVRC1
+from models.robot import Sole
 from systems.perception.cloud_files import read_cloud
 from systems.perception.plane_segmentation import (
     LevelVoxels,
@@ -28,6 +30,7 @@ from systems.values import PlaneSegmentation
 Scan = Callable[..., Vector]
 GRAVITY = np.array([0.0, 0.0, -9.81])
 PARAMS = PlaneSegmenterParams(threads=1)
+SOLE = JVRC1.sole
 
 
 def check_treads(
@@ -71,7 +74,7 @@ def test_staircase_from_the_floor(name: str, scan: Scan, stair_scene: Any) -> No
     """The treads, and nothing else, to a few millimetres; the floor is the floor."""
     scene = stair_scene(**SCENES[name])
     eye = scene.sensor()
-    found, _ = segment_planes(scan(scene, eye), GRAVITY, PARAMS, eye)
+    found, _ = segment_planes(scan(scene, eye), GRAVITY, PARAMS, SOLE, eye)
     check_treads(found, scene, list(range(scene.steps)))
     floor = found.staircase.floor
     assert floor is not None
@@ -90,7 +93,7 @@ def test_staircase_from_a_tread(
         steps=4, rise=0.16, run=0.28, width=0.9, yaw=0.08, open_risers=open_risers
     )
     eye = scene.sensor(stands_on)
-    found, _ = segment_planes(scan(scene, eye), GRAVITY, PARAMS, eye)
+    found, _ = segment_planes(scan(scene, eye), GRAVITY, PARAMS, SOLE, eye)
     check_treads(found, scene, list(range(stands_on + 1, 4)))
 
 
@@ -99,7 +102,7 @@ def test_strip_of_floor_is_no_tread(scan: Scan, stair_scene: Any) -> None:
     scene = stair_scene(rise=0.17, run=0.30, width=1.0, walls=True)
     eye = scene.sensor()
     cloud = scan(scene, eye)
-    found, _ = segment_planes(cloud[cloud[:, 0] > -0.31], GRAVITY, PARAMS, eye)
+    found, _ = segment_planes(cloud[cloud[:, 0] > -0.31], GRAVITY, PARAMS, SOLE, eye)
     check_treads(found, scene, [0, 1, 2])
     assert found.staircase.floor is not None
     assert abs(found.staircase.floor.X_WR.translation()[2]) < 0.003
@@ -116,7 +119,7 @@ def test_tread_that_the_view_cuts_off_waits(
     )
     eye = scene.sensor()
     found, _ = segment_planes(
-        scan(scene, eye), GRAVITY, PARAMS, eye if with_viewpoint else None
+        scan(scene, eye), GRAVITY, PARAMS, SOLE, eye if with_viewpoint else None
     )
     check_treads(found, scene, [0, 1, 2])
 
@@ -130,7 +133,7 @@ def test_hidden_parts_do_not_move_the_edges(scan: Scan, stair_scene: Any) -> Non
     way = (cloud - eye) / fall
     hidden = (np.abs(np.abs(way[:, 1]) - 0.09) < 0.04) & (way[:, 0] < 0.45)
     hidden &= fall[:, 0] > 0.1
-    found, _ = segment_planes(cloud[~hidden], GRAVITY, PARAMS, eye)
+    found, _ = segment_planes(cloud[~hidden], GRAVITY, PARAMS, SOLE, eye)
     check_treads(found, scene, [1, 2])
 
 
@@ -140,7 +143,7 @@ def test_landing_is_no_tread(scan: Scan, stair_scene: Any) -> None:
     eye = scene.sensor()
     for tilt in ((20.0, 80.0), (38.0, 88.0)):
         cloud = scan(scene, eye, tilt=tilt)
-        found, _ = segment_planes(cloud, GRAVITY, PARAMS, eye)
+        found, _ = segment_planes(cloud, GRAVITY, PARAMS, SOLE, eye)
         check_treads(found, scene, [0, 1])
         heights = [float(p.X_WR.translation()[2]) for p in found.planes]
         assert min(abs(height - 0.51) for height in heights) < 0.005
@@ -151,7 +154,7 @@ def test_room_without_stairs_has_no_staircase(scan: Scan, stair_scene: Any) -> N
     scene = stair_scene(steps=0)
     eye = np.array([-0.6, 0.0, 1.5])
     cloud = scan(scene, eye)
-    found, _ = segment_planes(cloud, GRAVITY, PARAMS, eye)
+    found, _ = segment_planes(cloud, GRAVITY, PARAMS, SOLE, eye)
     assert found.staircase.treads == ()
     heights = [float(p.X_WR.translation()[2]) for p in found.planes]
     assert abs(heights[0]) < 0.003
@@ -164,8 +167,10 @@ def test_any_frame_gives_the_same_treads(scan: Scan, stair_scene: Any) -> None:
     eye = scene.sensor()
     cloud = scan(scene, eye)
     R_VW: Vector = RollPitchYaw(0.5, -0.8, 1.9).ToRotationMatrix().matrix()
-    turned, _ = segment_planes(cloud @ R_VW.T, 0.1 * R_VW @ GRAVITY, PARAMS, R_VW @ eye)
-    plain, _ = segment_planes(cloud, GRAVITY, PARAMS, eye)
+    turned, _ = segment_planes(
+        cloud @ R_VW.T, 0.1 * R_VW @ GRAVITY, PARAMS, SOLE, R_VW @ eye
+    )
+    plain, _ = segment_planes(cloud, GRAVITY, PARAMS, SOLE, eye)
     assert len(turned.staircase.treads) == len(plain.staircase.treads) == 3
     for a, b in zip(turned.staircase.treads, plain.staircase.treads, strict=True):
         np.testing.assert_allclose(a.corners() @ R_VW, b.corners(), atol=0.006)
@@ -178,10 +183,10 @@ def test_result_does_not_depend_on_threads_or_chance(
     """Same cloud, same planes, bit for bit; points that are none change nothing."""
     scene = stair_scene()
     cloud = scan(scene, scene.sensor())
-    first, _ = segment_planes(cloud, GRAVITY, PARAMS)
-    second, _ = segment_planes(cloud, GRAVITY, PlaneSegmenterParams(threads=2))
+    first, _ = segment_planes(cloud, GRAVITY, PARAMS, SOLE)
+    second, _ = segment_planes(cloud, GRAVITY, PlaneSegmenterParams(threads=2), SOLE)
     holes = np.insert(cloud, [0, 100, len(cloud)], [np.nan, 0.0, np.inf], axis=0)
-    third, _ = segment_planes(holes, GRAVITY, PARAMS)
+    third, _ = segment_planes(holes, GRAVITY, PARAMS, SOLE)
     assert first.planes == second.planes == third.planes
     assert first.staircase == second.staircase == third.staircase
     assert first.staircase.treads
@@ -202,7 +207,7 @@ def test_order_of_the_paper(scan: Scan, stair_scene: Any) -> None:
         staircase_from="size_cluster",
         threads=1,
     )
-    found, stages = segment_planes(cloud[near], GRAVITY, params, eye)
+    found, stages = segment_planes(cloud[near], GRAVITY, params, SOLE, eye)
     check_treads(found, scene, [0, 1, 2])
     assert stages.clusters.max() >= 3
 
@@ -228,7 +233,7 @@ def test_poor_clouds_have_no_staircase(
 ) -> None:
     """Whatever the cloud, a defined result and no error."""
     params = PlaneSegmenterParams(order=order, staircase_from=staircase_from, threads=1)
-    found, _ = segment_planes(CLOUDS[name], GRAVITY, params)
+    found, _ = segment_planes(CLOUDS[name], GRAVITY, params, SOLE)
     assert staircase_from == "size_cluster" or found.staircase.treads == ()
     if name in ("empty", "all nan"):
         assert found.planes == ()
@@ -239,18 +244,17 @@ def test_poor_clouds_have_no_staircase(
 def test_wrong_shape_is_refused() -> None:
     """The error shows what came."""
     with pytest.raises(ValueError, match=r"points: must be \(n, 3\), got \(3, 5\)"):
-        segment_planes(np.zeros((3, 5)), GRAVITY, PARAMS)
+        segment_planes(np.zeros((3, 5)), GRAVITY, PARAMS, SOLE)
 
 
 @pytest.mark.parametrize(
     ("field", "value"),
     [
-        ("voxel_size", 0.0),
-        ("voxel_size", float("nan")),
+        ("voxel_size", 0),
         ("seed_resolution", 0.03),
-        ("influence", 1.0),
+        ("influence", 1),
         ("min_neighbors", 26),
-        ("slope_tolerance", 2.0),
+        ("slope_tolerance", 2),
         ("neighbors", 3),
         ("order", "sideways"),
         ("planes_from", "nothing"),
@@ -262,8 +266,16 @@ def test_bad_parameters_are_named(field: str, value: float | str) -> None:
     """Each names its field and shows the value."""
     params = PlaneSegmenterParams()
     setattr(params, field, value)
-    with pytest.raises(ValueError, match=f"^{field}: .*got {value}"):
+    with pytest.raises(ValueError, match=f"^{field}: must .*got '?{value}"):
         params.validate()
+
+
+def test_what_is_smaller_than_the_sole_is_no_plane() -> None:
+    """Whatever robot it is: a board that JVRC-1 can stand on is none for a giant."""
+    board = np.random.default_rng(4).uniform(0, 1, (9999, 3)) * [0.4, 0.3, 0.0]
+    giant = Sole(heel=0.3, toe=0.6, half_width=0.15, ankle_height=0.3)
+    for sole, count in ((SOLE, 1), (giant, 0)):
+        assert len(segment_planes(board, GRAVITY, PARAMS, sole)[0].planes) == count
 
 
 def test_parameters_are_table_1_and_go_through_yaml() -> None:
@@ -301,8 +313,10 @@ def test_published_rectangles_from_published_voxels(data: Path) -> None:
         member=np.arange(len(points)),
         grid_pairs=pairs,
     )
-    _, clusters = cluster_level(level, params)
-    patches = bound_planes(fit_planes(level, clusters, params), level, cloud, params)
+    _, clusters = cluster_level(level, params, SOLE)
+    patches = bound_planes(
+        fit_planes(level, clusters, params, SOLE), level, cloud, params
+    )
     _, yaw, treads, _ = find_treads(patches, cloud, params, None)
     assert len(treads) == 3
     for tread, rectangle in zip(treads, rectangles, strict=True):
@@ -321,7 +335,7 @@ def test_cinder_blocks(data: Path) -> None:
     """Tilted blocks: with 25 deg of slope each is a plane of its own size."""
     cloud = read_cloud(data / "clouds" / "terrain_close_rect.pcd")
     params = PlaneSegmenterParams(slope_tolerance=np.radians(25.0))
-    found, _ = segment_planes(cloud, GRAVITY, params)
+    found, _ = segment_planes(cloud, GRAVITY, params, SOLE)
     blocks = [
         plane
         for plane in found.planes
@@ -333,7 +347,7 @@ def test_cinder_blocks(data: Path) -> None:
     slopes = np.degrees([np.arccos(plane.normal[2]) for plane in blocks])
     assert 10.0 < np.median(slopes) < 18.0
     assert found.staircase.treads == ()
-    level, _ = segment_planes(cloud, GRAVITY, PlaneSegmenterParams())
+    level, _ = segment_planes(cloud, GRAVITY, PlaneSegmenterParams(), SOLE)
     assert len(level.planes) < len(found.planes)
 
 
@@ -349,5 +363,5 @@ def test_narrow_treads_behind_legs(scan: Scan, stair_scene: Any) -> None:
         way = (cloud - eye) / fall
         hidden = (np.abs(np.abs(way[:, 1]) - 0.10) < 0.035) & (way[:, 0] < 0.46)
         hidden &= fall[:, 0] > 0.1
-        found, _ = segment_planes(cloud[~hidden], GRAVITY, PARAMS, eye)
+        found, _ = segment_planes(cloud[~hidden], GRAVITY, PARAMS, SOLE, eye)
         check_treads(found, scene, list(range(stands_on + 1, 4)))

@@ -8,6 +8,7 @@ import pytest
 from pydrake.perception import PointCloud
 from pydrake.systems.framework import Context
 
+from models.jvrc1 import JVRC1
 from systems.perception.plane_segmentation import segment_planes
 from systems.perception.plane_segmenter import PlaneSegmenter
 from systems.perception.segmenter_params import PlaneSegmenterParams
@@ -38,7 +39,7 @@ def test_system_publishes_the_core(
     scene = stair_scene(yaw=0.1)
     eye = scene.sensor()
     cloud = scan(scene, eye)
-    segmenter = PlaneSegmenter()
+    segmenter = PlaneSegmenter(JVRC1.sole)
     context = segmenter.CreateDefaultContext()
     fix_cloud(segmenter, context, cloud)
     segmenter.GetInputPort("gravity").FixValue(context, GRAVITY)
@@ -48,18 +49,18 @@ def test_system_publishes_the_core(
     assert evaluate(segmenter, context) is found
     watch = stopwatch(segmenter)
     assert watch is not None
-    assert len(watch.durations()) == 2
+    assert watch.count == 2
     assert len(found.staircase.treads) == len(unseen.staircase.treads) == 3
     # The port carries floats of 32 bits.
     single: Vector = cloud.astype(np.float32).astype(np.float64)
-    wanted, _ = segment_planes(single, GRAVITY, PlaneSegmenterParams(), eye)
+    wanted, _ = segment_planes(single, GRAVITY, PlaneSegmenterParams(), JVRC1.sole, eye)
     assert found.planes == wanted.planes
     assert found.staircase == wanted.staircase
 
 
 def test_empty_cloud_has_an_empty_segmentation() -> None:
     """Before the first sweep there is nothing, and that is no error."""
-    segmenter = PlaneSegmenter()
+    segmenter = PlaneSegmenter(JVRC1.sole)
     context = segmenter.CreateDefaultContext()
     fix_cloud(segmenter, context, np.zeros((0, 3)))
     segmenter.GetInputPort("gravity").FixValue(context, GRAVITY)
@@ -71,5 +72,5 @@ def test_empty_cloud_has_an_empty_segmentation() -> None:
 
 def test_bad_parameters_are_refused_at_once() -> None:
     """Where the system is made, not at its first cloud."""
-    with pytest.raises(ValueError, match="voxel_size: must be positive, got -1"):
-        PlaneSegmenter(PlaneSegmenterParams(voxel_size=-1.0))
+    with pytest.raises(ValueError, match="voxel_size: must be at least"):
+        PlaneSegmenter(JVRC1.sole, PlaneSegmenterParams(voxel_size=-1.0))

@@ -8,8 +8,10 @@ from systems.perception.planes import (
     bound_patch,
     fit_plane,
     least_rectangle,
+    make_patches,
     ransac_planes,
 )
+from systems.perception.voxels import voxelize
 
 
 def test_ransac_splits_a_cluster_of_two_levels() -> None:
@@ -31,6 +33,28 @@ def test_ransac_splits_a_cluster_of_two_levels() -> None:
         assert plane.point[2] == pytest.approx(height, abs=0.001)
         np.testing.assert_allclose(plane.normal, [0, 0, 1], atol=0.01)
     assert set(planes[0].inliers) >= set(range(600)) - set(planes[1].inliers)
+
+
+def test_the_area_of_a_slope_is_larger_than_its_plan() -> None:
+    """By the cosine of its slope, as a level plane over the same plan tells."""
+    x, y = (v.ravel() for v in np.meshgrid(*2 * [np.arange(0.0025, 1.0, 0.005)]))
+    areas = []
+    for slope in np.radians([0.0, 24.0]):
+        points = np.column_stack([x, y, np.tan(slope) * x])
+        grid = voxelize(points, 0.02)
+        owner = np.zeros(len(grid.keys), dtype=np.int64)
+        normal = np.array([-np.sin(slope), 0.0, np.cos(slope)])
+        (patch,) = make_patches(
+            (Plane(points.mean(axis=0), normal, np.flatnonzero(owner == 0)),),
+            owner,
+            grid.index,
+            grid.voxel_of_point,
+            points,
+            voxel_size=0.02,
+            tolerance=0.015,
+        )
+        areas.append(patch.area)
+    np.testing.assert_allclose(areas, [1.0, 1.0 / np.cos(slope)], rtol=1e-9)
 
 
 def test_same_seed_same_planes() -> None:

@@ -1,6 +1,7 @@
 """The map as a system: it merges once a sweep, and asks only then."""
 
 import numpy as np
+import pytest
 from pydrake.common.value import AbstractValue
 from pydrake.math import RigidTransform
 from pydrake.systems.analysis import Simulator
@@ -78,3 +79,33 @@ def test_map_merges_each_sweep_once() -> None:
     simulator.AdvanceTo(0.39)
     assert state() == (Staircase((tread(0), tread(1), tread(2))), 3.0)
     np.testing.assert_allclose(climb.asked, [0.1, 0.2, 0.3], atol=0.026)
+
+
+def test_what_a_sweep_says_is_there_after_the_time_it_takes() -> None:
+    """Sweeps that end meanwhile wait; the one that is worked on next is the latest."""
+    builder = DiagramBuilder()
+    climb = builder.AddNamedSystem("climb", Climb())
+    known = builder.AddNamedSystem("map", StaircaseMap(latency=0.26))
+    for port in ("segmentation", "sweep"):
+        builder.Connect(climb.GetOutputPort(port), known.GetInputPort(port))
+    simulator = Simulator(builder.Build())
+    context = known.GetMyContextFromRoot(simulator.get_context())
+    seen: list[tuple[float, int, float | None]] = []
+    for step in range(1, 32):
+        simulator.AdvanceTo(0.025 * step + 0.001)
+        sweep = round(float(eval_vector(known.GetOutputPort("sweep"), context)[0]))
+        port = known.GetOutputPort("segmentation")
+        found = eval_abstract(port, context, PlaneSegmentation)
+        if found.planes and (not seen or seen[-1][1] != sweep):
+            seen.append((round(0.025 * step, 3), sweep, found.sensed_at))
+    # Each time eleven updates of 25 ms later.
+    assert [(time, sweep) for time, sweep, _ in seen] == [(0.375, 1), (0.65, 3)]
+    sensed = [moment for _, _, moment in seen]
+    np.testing.assert_allclose(sensed, [0.1, 0.375], atol=1e-9)
+    np.testing.assert_allclose(climb.asked, [0.1, 0.375, 0.65], atol=1e-9)
+
+
+def test_a_time_that_makes_no_sense_is_refused() -> None:
+    """When the System is made."""
+    with pytest.raises(ValueError, match=r"^latency: must be at least 0 s, got "):
+        StaircaseMap(latency=-0.1)

@@ -11,6 +11,7 @@ from pydrake.multibody.plant import MultibodyPlant
 from models.collision_hulls import collision_hulls
 from models.jvrc1 import JVRC1
 from models.robot_loader import add_robot
+from models.self_distance import SelfDistanceMeter
 from systems.balance.wrench_distribution import DistributionParams
 from systems.planning.motion_choice import MotionTask
 from systems.planning.motion_prediction import MotionPredictor
@@ -36,7 +37,12 @@ def jvrc1() -> Robot:
     plant.Finalize()
     ik = WholeBodyIk(plant, JVRC1, IkParams())
     predictor = MotionPredictor(
-        plant, JVRC1, ik, DistributionParams(), collision_hulls(JVRC1)
+        plant,
+        JVRC1,
+        ik,
+        DistributionParams(),
+        collision_hulls(JVRC1),
+        SelfDistanceMeter(JVRC1),
     )
     return Robot(plant, predictor)
 

@@ -66,7 +66,10 @@ def test_only_the_exact_form_knows_of_the_height() -> None:
 
 
 def test_all_three_plan_the_crossing() -> None:
-    """The filter brings each ZMP to its reference; the CoMs are millimetres apart."""
+    """The filter brings each ZMP to its reference; the CoMs are a millimetre apart.
+
+    While the feet step: before and after "exact" leaves the ZMP free.
+    """
     coms = {}
     for form in FORMS:
         motion, _ = planned(0.05, 0.15, replace(CrossingParams(), cwtg1=form))
@@ -77,9 +80,11 @@ def test_all_three_plan_the_crossing() -> None:
             assert after < before / 5.0
         assert report.gap > 0.035
         assert report.short == 0.0
-        coms[form] = motion.com
-    assert 1e-4 < np.abs(coms["preview"] - coms["window"]).max() < 5e-3
-    assert 1e-4 < np.abs(coms["preview"] - coms["exact"]).max() < 5e-3
+        lift, land = motion.phases[0].end, motion.phases[-1].start
+        rows = slice(round(lift / motion.period), round(land / motion.period))
+        coms[form] = motion.com[rows]
+    assert 1e-4 < np.abs(coms["preview"] - coms["window"]).max() < 2e-3
+    assert 1e-4 < np.abs(coms["preview"] - coms["exact"]).max() < 2e-3
 
 
 def test_another_form_is_refused() -> None:

@@ -14,7 +14,12 @@ from systems.planning.crossing_feet import (
 )
 from systems.planning.crossing_params import CrossingParams, Mode
 from systems.planning.crossing_timing import CrossingStep, time_steps, zmp_reference
-from systems.planning.feet_adaptor import KNOTS, LegPoses, Repairs
+from systems.planning.feet_adaptor import (
+    KNOTS,
+    LegPoses,
+    Repairs,
+    ankle_displacement,
+)
 from systems.planning.motion_params import MotionPlannerParams
 from systems.planning.step_timing import stance_zmp
 from systems.ports import Vector
@@ -128,6 +133,10 @@ def test_only_a_second_foot_that_meets_the_obstacle_yields() -> None:
     path = yielding_path(poses, gaps, time, steps, leg, Repairs())
     assert path is not None
     assert int(np.argmin(path)) == KNOTS // 2
+    # By the depth times what Eq. 25 says for the middle of the shin, and 2 mm.
+    leverage = ankle_displacement(leg, "right", angles[0, 1], 0.5 * leg.shank, 1.0)
+    assert leverage > 1.1
+    assert path.min() == pytest.approx(-(0.01 * leverage + 0.002), rel=1e-6)
     # A point half-way down the shin moves less than the ankle does.
     assert -0.03 <= path.min() < -0.012
     assert path[[0, -1]] == pytest.approx(0.0)

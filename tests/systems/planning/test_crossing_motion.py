@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from systems.planning import crossing_course
 from systems.planning.crossing_params import CrossingParams, ways_of_crossing
 from systems.planning.crossing_report import CrossingMotion
 from systems.planning.feasibility_unit import FeasibilityParams
@@ -156,6 +157,16 @@ def test_fta_keeps_the_margins_beyond_the_true_obstacle() -> None:
     assert 0.005 < narrow.gap < 0.03
 
 
+def test_the_com_sets_off_and_arrives_without_a_jump(motion: CrossingMotion) -> None:
+    """Of its ZMP by more than 5 mm in a tick, in the lead-in's first 3/4 and the end.
+
+    Where a foot lifts the waist takes off at once, and the ZMP with it.
+    """
+    jumps = np.abs(np.diff(motion.cart_zmp, axis=0)).max(axis=1)
+    assert jumps[:120].max() < 0.005
+    assert jumps[-120:].max() < 0.005
+
+
 def test_a_knee_that_folds_too_far_raises_the_waist() -> None:
     """The second repair: as far as the stance leg reaches."""
     free = planned(0.05, 0.20, CrossingParams(fold_margin=0.0))[0]
@@ -186,3 +197,20 @@ def test_a_foot_that_is_not_drawn_in_rolls_the_hip_beyond_its_limit() -> None:
     assert drawn.limit_distance > 0.02
     assert hanging.limit_distance < 0.0
     assert hanging.limit_joint.endswith("HIP_R")
+
+
+def test_the_third_repair_acts_where_the_others_do_not(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Over a thin high slat the second shin is less deep in the margin for it."""
+    yielding, _ = planned(0.024, 0.291)
+    path = yielding.report.repairs.path
+    assert path.size
+    assert path.min() < -0.005
+    assert path.max() <= 0.0
+    monkeypatch.setattr(crossing_course, "yielding_path", lambda *_: None)
+    stiff, _ = planned(0.024, 0.291)
+    assert not stiff.report.repairs.path.size
+    assert yielding.report.repairs.shift == stiff.report.repairs.shift
+    assert yielding.report.repairs.raised == stiff.report.repairs.raised
+    assert yielding.report.gap > stiff.report.gap + 0.003

@@ -12,7 +12,6 @@ from systems.obstacle_values import Obstacle, ObstacleMap
 from systems.planning.crossing_params import CrossingParams, HighCrossingParams, Mode
 from systems.planning.crossing_planner import CrossingPlanner
 from systems.planning.crossing_report import CrossingMotion
-from systems.planning.feasibility_unit import FeasibilityParams
 from systems.planning.footstep_params import FootstepPlannerParams
 from systems.planning.motion import plan_motion
 from systems.planning.motion_params import MotionPlannerParams
@@ -123,16 +122,9 @@ def test_at_the_goal_it_stands() -> None:
         ),
         (
             replace(NEAR, height=0.25),
-            CrossingParams(
-                max_repairs=0,
-                waist_yaw=0.0,
-                most_short=-1.0,
-                least_gap=-1.0,
-                feasibility=FeasibilityParams(s_w=0.03, s_h=0.03, joint_margin=0.0),
-                high=HighCrossingParams(waist_yaw=0.0, least_gap=-1.0),
-            ),
+            CrossingParams(max_repairs=0, high=HighCrossingParams(margins=[])),
             "dynamic",
-            "a leg is",
+            " mm too short",
         ),
         (
             NEAR,

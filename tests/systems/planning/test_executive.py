@@ -52,6 +52,7 @@ def decided(
     sweeps: int = 0,
     footsteps: FootstepPlan | None = None,
     plan: Callable[[], MotionPlan] = refuse,
+    latency: float = 0.0,
 ) -> Decision:
     """One decision; planners that are not given must not be asked."""
     return decide(
@@ -61,6 +62,7 @@ def decided(
         lambda: footsteps if footsteps is not None else refuse(),  # type: ignore
         plan,
         PARAMS,
+        latency,
     )
 
 
@@ -92,6 +94,47 @@ def test_moves_along_what_was_planned() -> None:
     assert move.status == TaskStatus("running", "move")
 
 
+def test_a_plan_is_there_after_the_time_it_takes() -> None:
+    """Made at once of what is known now; it begins later, and the robot stands."""
+    scan = Decision(STAND, activity="scan", sweeps=2)
+    asked = []
+
+    def plan() -> MotionPlan:
+        asked.append("motion")
+        return motion()
+
+    thinking = decided(scan, 9.0, 3, PLANNED, plan, latency=0.31)
+    assert asked == ["motion"]
+    assert (thinking.activity, thinking.since, thinking.sweeps) == ("plan", 9.0, 3)
+    assert thinking.status == TaskStatus("running", "plan")
+    assert (thinking.motion_plan, thinking.footstep_plan) == (STAND, FootstepPlan())
+    # Another sweep is worked in meanwhile; the planners are not asked again.
+    assert decided(thinking, 9.3, 4) is thinking
+    move = decided(thinking, 9.325, 4)
+    assert (move.activity, move.sweeps) == ("move", 3)
+    assert move.since == move.motion_plan.start_time == pytest.approx(9.325)
+    assert move.footstep_plan is PLANNED
+    assert decided(move, 10.3, 4) is move
+    assert decided(move, 10.33, 4).activity == "settle"
+
+
+def test_a_refusal_takes_as_long() -> None:
+    """Of footsteps or of the motion; until then the task is running."""
+    scan = Decision(motion(1.0, 3.0), activity="scan", sweeps=1)
+    steep = FootstepPlan(status="infeasible", reason="a 40 cm rise")
+    weak = replace(motion(), reason="torque: KNEE would need 120 Nm")
+    for footsteps, plan, reason in (
+        (steep, refuse, "a 40 cm rise"),
+        (PLANNED, lambda: weak, weak.reason),
+    ):
+        thinking = decided(scan, 9.0, 2, footsteps, plan, latency=0.5)
+        assert thinking.status.state == "running"
+        stand = decided(thinking, 9.5, 2)
+        assert stand.status == TaskStatus("infeasible", "stand", reason)
+        assert stand.motion_plan is scan.motion_plan
+        assert stand.since == pytest.approx(9.5)
+
+
 def test_settles_again_when_the_motion_is_over() -> None:
     """Not before its last row; the plan goes on being held."""
     move = Decision(motion(1.0, start_time=9.0), activity="move", since=9.0, sweeps=3)
@@ -116,9 +159,9 @@ def test_stands_where_nothing_is_left_to_do(footsteps: FootstepPlan) -> None:
     assert decided(stand, 99.0, 9) is stand
 
 
-def make() -> tuple[Executive, Context]:
+def make(latency: float = 0.0) -> tuple[Executive, Context]:
     """The system on a world that always has a further motion of 0.2 s."""
-    system = Executive(PARAMS, STAND)
+    system = Executive(PARAMS, STAND, latency)
     context = system.CreateDefaultContext()
     system.GetInputPort("sweep").FixValue(context, [0.0])
     system.GetInputPort("footstep_plan").FixValue(context, AbstractValue.Make(PLANNED))
@@ -141,9 +184,18 @@ def test_default_context_stands() -> None:
     assert eval_vector(system.GetOutputPort("scan"), context)[0] == 0.0
 
 
-def test_a_round_of_scan_and_motion() -> None:
+@pytest.mark.parametrize(
+    ("latency", "rounds"),
+    [
+        (0.0, [("move", 0.75), ("settle", 0.95), ("scan", 1.25)]),
+        (0.15, [("plan", 0.75), ("move", 0.9), ("settle", 1.1), ("scan", 1.4)]),
+    ],
+)
+def test_a_round_of_scan_and_motion(
+    latency: float, rounds: list[tuple[str, float]]
+) -> None:
     """As the ports tell it; the scanner sweeps only while it is to."""
-    system, context = make()
+    system, context = make(latency)
     simulator = Simulator(system, context)
     scan, seen = system.GetOutputPort("scan"), []
     for step in range(1, 60):
@@ -156,15 +208,9 @@ def test_a_round_of_scan_and_motion() -> None:
         assert on == (activity == "scan")
         if not seen or seen[-1][0] != activity:
             seen.append((activity, round(context.get_time() - 0.001, 3)))
-    assert seen == [
-        ("", 0.025),
-        ("scan", 0.3),
-        ("move", 0.75),
-        ("settle", 0.95),
-        ("scan", 1.25),
-    ]
+    assert seen == [("", 0.025), ("scan", 0.3), *rounds]
     plan = output(system, context, "motion_plan")
-    assert plan == replace(motion(0.2), start_time=pytest.approx(0.75))
+    assert plan == replace(motion(0.2), start_time=pytest.approx(0.75 + latency))
     assert output(system, context, "footstep_plan") == PLANNED
 
 
@@ -176,6 +222,12 @@ def test_parameters_out_of_range_are_refused(field: str, value: float) -> None:
     """By name."""
     with pytest.raises(ValueError, match=rf"^{field}: must .*, got "):
         Executive(ExecutiveParams(**{field: value}), STAND)
+
+
+def test_a_time_to_plan_that_makes_no_sense_is_refused() -> None:
+    """As a parameter is."""
+    with pytest.raises(ValueError, match=r"^latency: must be at least 0 s, got "):
+        Executive(PARAMS, STAND, -0.1)
 
 
 def test_a_motion_that_cannot_be_done_is_refused_before_moving() -> None:

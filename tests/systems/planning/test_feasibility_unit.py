@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from systems.planning import feasibility_unit as unit
-from systems.planning.feasibility_maps import feasibility_maps
+from systems.planning.feasibility_maps import SHARES, feasibility_maps
 from systems.planning.feasibility_unit import (
     Checked,
     FeasibilityParams,
@@ -44,6 +44,41 @@ def test_the_key_configuration_meets_its_constraints(height: float) -> None:
     assert (checked.gap > 0.0).all()
     # Feet and margins fit exactly: the search begins with the least step.
     assert key.X_ads >= leg.outline.toe + leg.outline.heel + inflated.width - 1e-9
+
+
+@pytest.mark.parametrize("delta_ds", [0.4, 0.55])
+def test_the_waist_is_at_its_share_of_the_step(delta_ds: float) -> None:
+    """Eq. 22, X_hds = delta_DS X_ads, from the rear ankle; also off the middle."""
+    section, leg = Section(0.05, 0.1), body().leg
+    params = replace(FeasibilityParams(), delta_ds=delta_ds, waist_travel=0.0)
+    key = feasibility_unit(section, WAIST, leg, params).key
+    assert key is not None
+    assert key.X_hds == pytest.approx(delta_ds * key.X_ads)
+
+
+@pytest.mark.parametrize("delta_ds", [0.3, 0.5, 0.7])
+def test_the_dynamic_map_has_the_waist_at_its_share(delta_ds: float) -> None:
+    """Eq. 22 again: each cell by itself, from bent to stretched legs."""
+    section, leg = Section(0.05, 0.1), body().leg
+    feet = leg.outline.toe + leg.outline.heel + section.width
+    X, Z = np.array([0.40, 0.44]), np.arange(0.56, 0.90, 0.01)
+
+    def stands(x: float, z: float) -> bool:
+        """Whether the obstacle may lie somewhere between the feet."""
+        found = check_double_support(
+            section,
+            np.full(len(SHARES), x),
+            np.full(len(SHARES), delta_ds * x),
+            np.full(len(SHARES), z),
+            leg.outline.toe + np.array(SHARES) * (x - feet),
+            leg,
+        )
+        return bool((found.within(0.0) & (found.gap > 0.0)).any())
+
+    wanted = [[stands(x, z) for x in X] for z in Z]
+    assert 0 < np.sum(wanted) < np.size(wanted)
+    maps = feasibility_maps(section, leg, X, Z, delta_ds)
+    np.testing.assert_array_equal(maps.dynamic, wanted)
 
 
 def test_higher_obstacles_want_longer_steps_or_lower_waists() -> None:
@@ -167,7 +202,7 @@ def test_dynamic_maps_allow_higher_waists_than_quasi_static_ones() -> None:
 
 def test_validation() -> None:
     """A field out of range is named."""
-    with pytest.raises(ValueError, match="delta_ds: must lie in"):
+    with pytest.raises(ValueError, match="delta_ds: must be less than 1"):
         replace(FeasibilityParams(), delta_ds=1.5).validate()
 
 

@@ -15,6 +15,7 @@ from systems.planning.feet_adaptor import (
     LegPoses,
     Repairs,
     adapt,
+    ankle_displacement,
     leg_gaps,
     penetration_path,
 )
@@ -151,3 +152,82 @@ def test_far_legs_are_told_by_how_far_at_least(x: float) -> None:
     assert (gaps <= reach + 1e-9).all()
     assert (gaps > reach - 0.1).all()
     assert (gaps > FAR).all() == (abs(x) > 0.5)
+
+
+@pytest.mark.parametrize("yaw", [0.0, 0.5])
+def test_the_gap_is_to_the_inflated_front_and_back(yaw: float) -> None:
+    """A section whose front is before the obstacle's by its margin, behind likewise."""
+    leg = body().leg
+    angles: Vector = np.tile([-0.4, 0.0, 0.0, 0.7, 0.0, -0.3], (1, 2, 1))
+    soles = np.zeros((1, 2, 6))
+    soles[..., 5] = yaw
+    ahead, width, margin = np.array([np.cos(yaw), np.sin(yaw)]), 0.06, 0.04
+    toe, heel = leg.outline.toe, leg.outline.heel
+    for free in (0.01, 0.02):
+        # As low as a sole is thick, so that the feet alone come near.
+        for x in (toe + margin + free, -heel - margin - width - free):
+            obstacle = Obstacle((x + 0.5 * width) * ahead, yaw, width, 0.001, 1.0)
+            gaps = leg_gaps(
+                leg,
+                angles,
+                soles,
+                (obstacle,),
+                (Section(width + 2.0 * margin, 0.001),),
+                [margin],
+                0.0,
+            )
+            assert gaps.min() == pytest.approx(free, abs=1e-9)
+
+
+def shank_of(angles: Vector, x: float, z: float) -> Vector:
+    """A point of the left shank, from its knee, in a frame of the waist, (3,), m."""
+    leg, c, s = body().leg, np.cos(angles[:4]), np.sin(angles[:4])
+    pitch, knee = (
+        np.array([[c[i], 0.0, s[i]], [0.0, 1.0, 0.0], [-s[i], 0.0, c[i]]])
+        for i in (0, 3)
+    )
+    roll = np.array([[1.0, 0.0, 0.0], [0.0, c[1], -s[1]], [0.0, s[1], c[1]]])
+    yaw = np.array([[c[2], -s[2], 0.0], [s[2], c[2], 0.0], [0.0, 0.0, 1.0]])
+    thigh = np.array([leg.thigh[0], 0.0, leg.thigh[1]])
+    return leg.hips["left"] + pitch @ roll @ yaw @ (
+        thigh + knee @ np.array([x, 0.0, z])
+    )
+
+
+@pytest.mark.parametrize("share", [0.25, 0.5, 0.75, 1.0])
+@pytest.mark.parametrize(
+    "angles",
+    [(-0.6, 0.0, 0.0, 1.1, 0.0, -0.5), (-0.4, 0.1, -0.15, 1.3, 0.05, -0.7)],
+)
+def test_the_ankle_yields_for_a_point_of_the_shank(
+    angles: tuple[float, ...], share: float
+) -> None:
+    """Eq. 25, dP = J_p J_s^+ dS: the least joint motion that moves the point by dS.
+
+    The Jacobians by differences of the leg's kinematics written out. The ankle is
+    farther from the hip than the point, and moves farther; by as much when it is it.
+    """
+    leg, q = body().leg, np.array(angles)
+    step = 1e-6
+
+    def jacobian(x: float, z: float) -> Vector:
+        columns = []
+        for joint in range(4):
+            ahead, behind = q.copy(), q.copy()
+            ahead[joint] += step
+            behind[joint] -= step
+            change = shank_of(ahead, x, z) - shank_of(behind, x, z)
+            columns.append(change / (2.0 * step))
+        return np.array(columns).T
+
+    point = share * leg.shank
+    J_s, J_p = jacobian(*point), jacobian(*leg.shank)
+    dS = np.array([0.01, 0.0, 0.0])
+    dq = np.linalg.lstsq(J_s, dS, rcond=None)[0]
+    np.testing.assert_allclose(J_s @ dq, dS, atol=1e-9)
+    moved = ankle_displacement(leg, "left", q, point, 0.01)
+    assert moved == pytest.approx((J_p @ dq)[0], abs=1e-7)
+    if share == 1.0:
+        assert moved == pytest.approx(0.01)
+    else:
+        assert moved > 0.0105

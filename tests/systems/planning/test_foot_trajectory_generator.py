@@ -105,7 +105,7 @@ def test_a_shift_moves_the_way_to_the_rear() -> None:
 
 def test_validation() -> None:
     """A field out of range is named."""
-    with pytest.raises(ValueError, match="lifted: must lie"):
+    with pytest.raises(ValueError, match="lifted: must be less than lowering"):
         replace(FootTrajectoryParams(), lifted=0.8).validate()
     with pytest.raises(ValueError, match="profile: must be"):
         replace(FootTrajectoryParams(), profile="circle").validate()
@@ -132,6 +132,11 @@ def test_a_step_aside_and_a_turn_are_taken_on_the_way() -> None:
     whole = float(end[:2] @ aside)
     assert middle[:2] @ aside == pytest.approx(0.5 * whole, abs=1e-6)
     assert np.abs(np.diff(poses[:, 5])).max() < 0.01
+    # The quintic blend: neither speed nor acceleration where the foot leaves and lands.
+    u = TIME / DURATION
+    blend = u**3 * (10.0 - 15.0 * u + 6.0 * u**2)
+    np.testing.assert_allclose(poses[:, 5] / 0.4, blend, atol=1e-9)
+    np.testing.assert_allclose(poses[:, :2] @ aside / whole, blend, atol=1e-9)
 
 
 def test_the_first_foot_lifts_its_toes_the_second_its_heel() -> None:

@@ -203,6 +203,24 @@ def test_the_waist_leans_only_while_climbing() -> None:
     assert not walk.waist.any()
 
 
+@pytest.mark.parametrize("name", ["climb", "walk"])
+def test_the_zmp_sets_off_and_arrives_without_a_jump(name: str) -> None:
+    """By less than 5 mm in a tick; at both ends it rests under the CoM."""
+    motion = plan(name)
+    for zmp in (motion.zmp[:, :2], motion.cart_zmp):
+        assert np.abs(np.diff(zmp, axis=0)).max() < 0.005
+        np.testing.assert_allclose(zmp[[0, -1]], motion.com[[0, -1], :2], atol=1e-9)
+    first = motion.phases[1]
+    zmp = motion.zmp[round(first.start / motion.period)]
+    wanted = stance_zmp(
+        START[FEET.index(first.stance[0])],
+        first.stance[0],
+        PARAMS.climb_zmp_forward if name == "climb" else PARAMS.zmp_forward,
+        PARAMS,
+    )
+    np.testing.assert_allclose(zmp[:2], wanted[:2], atol=0.003)
+
+
 def test_standing_is_a_plan_without_steps() -> None:
     """Nothing moves in it."""
     stand = plan("stand")

@@ -104,5 +104,5 @@ def test_a_new_input_is_a_new_plan() -> None:
 
 def test_a_wrong_parameter_is_refused() -> None:
     """When the system is made."""
-    with pytest.raises(ValueError, match=r"^lead_in: must be positive"):
+    with pytest.raises(ValueError, match=r"^lead_in: must be at least 0"):
         MotionPlanner(MotionPlannerParams(lead_in=0.0), PREVIEW, JVRC1)

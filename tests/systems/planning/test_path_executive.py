@@ -20,10 +20,13 @@ from systems.planning.path_executive import (
     remaining_footsteps,
 )
 from systems.room_values import Environment, ObstacleBox, PathPlan
+from systems.thinking import ThinkingParams
 from systems.values import ContactPhase, Footstep, FootstepPlan, MotionPlan, TaskStatus
 
 SOLE = Sole(heel=0.10, toe=0.15, half_width=0.05, ankle_height=0.1)
 PARAMS = PathExecutiveParams(settle_time=0.4, look_period=0.5, body_radius=0.2)
+AT_ONCE = ThinkingParams(room_perception=0.0, room_planning=0.0, stopping=0.0)
+SLOW = ThinkingParams(room_perception=0.2, room_planning=0.51, stopping=0.1)
 PLANNED = FootstepPlan(status="planned")
 STEPS = tuple(
     Footstep(foot, RigidTransform([0.25 * (i + 1), y, 0.0]), -1)
@@ -82,6 +85,7 @@ def decided(
     plan: MotionPlan | None = None,
     stop: Callable[[MotionPlan, float], MotionPlan | None] = unasked,  # type: ignore
     params: PathExecutiveParams = PARAMS,
+    thinking: ThinkingParams = AT_ONCE,
 ) -> PathDecision:
     """One decision; sources that are not given must not be asked."""
 
@@ -96,7 +100,7 @@ def decided(
         give(plan),  # type: ignore
         stop,
     )
-    return decide(before, time, frames, sources, SOLE, params)
+    return decide(before, time, frames, sources, SOLE, params, thinking)
 
 
 MOVING = PathDecision(
@@ -124,7 +128,8 @@ def test_plans_from_what_it_sees_and_goes() -> None:
     assert (after.activity, after.since, after.looked) == ("move", 0.5, 0.5)
     assert after.plans == 3
     assert after.motion_plan.start_time == 0.5
-    assert (after.environment, after.footstep_plan) == (seen, PLANNED)
+    assert after.environment == replace(seen, sensed_at=0.5)
+    assert after.footstep_plan == PLANNED
     assert after.path_plan.reason == "of the path planner"
     assert after.status == TaskStatus("running", "move")
 
@@ -158,7 +163,8 @@ def test_looks_again_on_the_way() -> None:
     assert decided(MOVING, 10.4) is MOVING
     seen = Environment(boxes=(box(1.0, 2.0),))
     looked = decided(MOVING, 10.5, environment=seen)
-    assert (looked.looked, looked.environment) == (10.5, seen)
+    assert looked.looked == 10.5
+    assert looked.environment == replace(seen, sensed_at=10.5)
     assert (looked.activity, looked.motion_plan) == ("move", MOVING.motion_plan)
     assert decided(looked, 10.9) is looked
 
@@ -202,6 +208,105 @@ def test_looks_where_the_walk_has_ended() -> None:
     assert (after.activity, after.since) == ("look", 14.0)
 
 
+def test_standing_it_waits_for_what_it_sees_and_then_for_the_plan() -> None:
+    """Both of the look at the beginning; nobody is asked again."""
+    seen = Environment(boxes=(box(3.0),))
+    start = PathDecision(STAND)
+    looking = decided(
+        start, 0.5, environment=seen, footsteps=PLANNED, plan=WALK, thinking=SLOW
+    )
+    assert (looking.activity, looking.looked) == ("look", 0.5)
+    assert looking.environment == Environment()
+    assert decided(looking, 0.675) is looking
+    planning = decided(looking, 0.7)
+    assert planning.status == TaskStatus("running", "plan")
+    assert planning.environment == replace(seen, sensed_at=0.5)
+    assert (planning.footstep_plan, planning.motion_plan) == (FootstepPlan(), STAND)
+    assert decided(planning, 1.2) is planning
+    moving = decided(planning, 1.225)
+    assert (moving.activity, moving.plans, moving.looked) == ("move", 1, 0.5)
+    assert moving.since == moving.motion_plan.start_time == pytest.approx(1.225)
+    assert (moving.footstep_plan, moving.path_plan.reason) == (
+        PLANNED,
+        "of the path planner",
+    )
+
+
+def test_standing_a_refusal_takes_as_long() -> None:
+    """The task is running until then."""
+    refused = FootstepPlan(status="infeasible", reason="why")
+    looking = decided(
+        PathDecision(STAND),
+        1.0,
+        environment=Environment(),
+        footsteps=refused,
+        thinking=SLOW,
+    )
+    planning = decided(looking, 1.2)
+    assert planning.status.state == "running"
+    after = decided(planning, 1.725)
+    assert after.status == TaskStatus("infeasible", "stand", "why")
+
+
+def test_walking_it_sees_late_and_stops_later() -> None:
+    """The stop is planned for when it takes over; until then the walk goes on."""
+    seen = Environment(boxes=(box(1.0),))
+    asked = []
+
+    def stop(plan: MotionPlan, time: float) -> MotionPlan:
+        asked.append((plan, time))
+        return motion(2.0, 10.0)
+
+    looking = decided(MOVING, 10.5, environment=seen, stop=stop, thinking=SLOW)
+    assert asked == [(MOVING.motion_plan, pytest.approx(10.8))]
+    assert (looking.activity, looking.looked) == ("move", 10.5)
+    assert looking.environment == Environment()
+    assert decided(looking, 10.675) is looking
+    replanning = decided(looking, 10.7)
+    assert replanning.status == TaskStatus("running", "replan")
+    assert replanning.environment == replace(seen, sensed_at=10.5)
+    assert replanning.motion_plan == MOVING.motion_plan
+    assert decided(replanning, 10.775) is replanning
+    stopping = decided(replanning, 10.8)
+    assert (stopping.activity, stopping.motion_plan) == ("stop", motion(2.0, 10.0))
+    assert decided(stopping, 12.0).activity == "look"
+
+
+def test_steps_that_land_before_the_box_is_seen_are_not_ahead() -> None:
+    """The second lands at 12 s: it counts for a look at 11.7 s, not for one at 11.9."""
+    seen = Environment(boxes=(box(0.15),))
+    for time, ahead in ((11.7, True), (11.9, False)):
+        asked: list[float] = []
+
+        def stop(plan: MotionPlan, time: float, asked: list[float] = asked) -> None:
+            asked.append(time)
+
+        decided(MOVING, time, environment=seen, stop=stop, thinking=SLOW)
+        assert bool(asked) is ahead
+
+
+def test_while_a_look_is_worked_on_there_is_no_other() -> None:
+    """However often it should look; the next look follows when it can."""
+    params = replace(PARAMS, look_period=0.1)
+    seen = Environment(boxes=(box(1.0, 2.0),))
+    looking = decided(MOVING, 10.5, environment=seen, params=params, thinking=SLOW)
+    assert decided(looking, 10.65, params=params, thinking=SLOW) is looking
+    looked = decided(looking, 10.7, params=params, thinking=SLOW)
+    assert (looked.activity, looked.looked) == ("move", 10.5)
+    assert looked.environment == replace(seen, sensed_at=10.5)
+    again = decided(looked, 10.725, environment=seen, params=params, thinking=SLOW)
+    assert again.looked == 10.725
+
+
+def test_a_walk_ends_whatever_is_being_worked_on() -> None:
+    """What comes after is looked at anew."""
+    seen = Environment(boxes=(box(9.0),))
+    looking = decided(MOVING, 13.9, environment=seen, thinking=SLOW)
+    ended = decided(looking, 14.0)
+    assert (ended.activity, ended.since) == ("look", 14.0)
+    assert decided(ended, 14.3) is ended
+
+
 def test_remaining_footsteps_are_those_in_the_air_or_to_come() -> None:
     """A step counts until it has landed."""
     plan = motion(4.0, 10.0)
@@ -231,12 +336,16 @@ def test_a_box_blocks_within_the_bodys_radius_of_a_sole(
 def test_wrong_parameters_are_named(field: str, value: float) -> None:
     """The message begins with the field."""
     with pytest.raises(ValueError, match=f"^{field}: "):
-        PathExecutive(replace(PARAMS, **{field: value}), SOLE, STAND, unasked)  # type: ignore
+        PathExecutive(  # type: ignore
+            replace(PARAMS, **{field: value}), SOLE, STAND, unasked, AT_ONCE
+        )
+    with pytest.raises(ValueError, match=r"^stopping: "):
+        PathExecutive(PARAMS, SOLE, STAND, unasked, ThinkingParams(stopping=-1.0))  # type: ignore
 
 
 def test_the_system_carries_its_decisions_out() -> None:
-    """It looks at 0.4 s, walks for four seconds and is told that it is there."""
-    executive = PathExecutive(PARAMS, SOLE, STAND, unasked)  # type: ignore
+    """It looks at 0.4 s, walks 0.71 s later and is told that it is there."""
+    executive = PathExecutive(PARAMS, SOLE, STAND, unasked, SLOW)  # type: ignore
     simulator = Simulator(executive)
     context = simulator.get_mutable_context()
     executive.GetInputPort("frame").FixValue(context, [1.0])
@@ -254,12 +363,16 @@ def test_the_system_carries_its_decisions_out() -> None:
 
     simulator.AdvanceTo(0.35)
     assert status().activity == "look"
-    simulator.AdvanceTo(0.45)
+    simulator.AdvanceTo(0.65)
+    assert status() == TaskStatus("running", "plan")
+    seen = executive.GetOutputPort("environment").Eval(context)
+    assert seen.sensed_at == pytest.approx(0.4, abs=0.026)
+    simulator.AdvanceTo(1.2)
     assert status() == TaskStatus("running", "move")
     plan = executive.GetOutputPort("motion_plan").Eval(context)
-    assert plan.start_time == pytest.approx(0.4, abs=0.026)
+    assert plan.start_time == pytest.approx(0.4 + 0.2 + 0.525, abs=0.026)
     executive.GetInputPort("footstep_plan").FixValue(
         context, AbstractValue.Make(FootstepPlan(status="finished"))
     )
-    simulator.AdvanceTo(5.0)
+    simulator.AdvanceTo(6.5)
     assert status().state == "finished"

@@ -17,7 +17,7 @@ from systems.planning.motion_params import MotionPlannerParams
 from systems.planning.quasi_static import Climb, plan_segments, unstable_segment
 from systems.planning.quasi_static_motion import play_segments
 from systems.planning.quasi_static_params import QuasiStaticParams
-from systems.values import MotionPlan
+from systems.values import Footstep, MotionPlan
 
 PARAMS = MotionPlannerParams()
 CLIMB = Climb(lean=0.6, toe_off=0.8, lifted_height=0.7, forward=0.12)
@@ -33,6 +33,19 @@ def played(task: MotionTask) -> MotionPlan:
     return play_segments(
         segments_of(task), task.footsteps, task.edges, PARAMS, ZmpPreviewParams(), JVRC1
     )
+
+
+def test_the_com_rests_over_the_lower_of_two_nearly_level_feet() -> None:
+    """So that neither leg is stretched by what the ground is uneven."""
+    feet = np.array([[0.0, 0.095, 0, 0, 0, 0], [0.0, -0.095, 0, 0, 0, 0]])
+    com = np.array([PARAMS.zmp_forward, 0.0, PARAMS.com_height])
+    uneven = 0.5 * PARAMS.climb_threshold
+    for height, lower in ((uneven, 0.0), (-uneven, -uneven)):
+        X_WF = RigidTransform(np.array([0.1, -0.095, height]))
+        footstep = Footstep(foot="right", X_WF=X_WF, plane=-1)
+        segments = plan_segments(feet, com, (footstep,), CLIMB, PARAMS, JVRC1)
+        rest = [0.05 + PARAMS.zmp_forward, 0.0, lower + PARAMS.com_height]
+        np.testing.assert_allclose(segments[-1].com[1], rest, atol=1e-12)
 
 
 def test_a_step_is_the_paper_s_five_segments(step_24cm: MotionTask) -> None:

@@ -166,6 +166,53 @@ def test_the_motion_is_smooth_and_ends_at_rest_coming_straight_down() -> None:
     assert speed.argmax() < 0.3 * len(speed)
 
 
+def test_sideways_way_roll_and_yaw_are_blended_like_the_way_ahead() -> None:
+    """All by one share, the quintic blend, which is at rest at both ends."""
+    X_WStart = RigidTransform(RollPitchYaw(0.05, 0.0, -0.2), np.zeros(3))
+    X_WEnd = RigidTransform(RollPitchYaw(0.0, 0.0, 0.3), np.array([0.3, 0.12, 0.1]))
+    period = 0.001
+    swing = swing_trajectory(
+        X_WStart, X_WEnd, DURATION, period, np.zeros((0, 3)), SOLE, PARAMS
+    )
+    toes = np.array([X.multiply(np.array([SOLE.toe, 0.0, 0.0])) for X in poses(swing)])
+    travelled = toes - toes[0]
+    shares = np.column_stack(
+        [
+            travelled[:, :2] / travelled[-1, :2],
+            (swing.rpy[:, 0] - 0.05) / -0.05,
+            (swing.rpy[:, 2] + 0.2) / 0.5,
+        ]
+    )
+    for share in shares.T[1:]:
+        np.testing.assert_allclose(share, shares[:, 0], atol=1e-9)
+    speed = np.diff(shares, axis=0) / period
+    moving = np.flatnonzero(speed[:, 0] > 1e-9)
+    span = period * (moving[-1] - moving[0] + 1)
+    # Of the blend, 15/8 of the mean speed half-way and none at the ends.
+    np.testing.assert_allclose(speed.max(axis=0), 1.875 / span, rtol=0.02)
+    np.testing.assert_allclose(speed[[0, -1]], 0.0, atol=1e-3)
+
+
+@pytest.mark.parametrize("yaw", [-0.5, 0.35])
+def test_the_corner_of_a_turned_sole_is_what_comes_near(yaw: float) -> None:
+    """A foot that leaves askew before a riser: the distance is that of its corners."""
+    ahead = max(
+        np.cos(yaw) * x - np.sin(yaw) * y
+        for x in (-SOLE.heel, SOLE.toe)
+        for y in (-SOLE.half_width, SOLE.half_width)
+    )
+    X_WStart = RigidTransform(
+        RollPitchYaw(0.0, 0.0, yaw), np.array([-ahead - 0.02, 0.0, 0.0])
+    )
+    X_WEnd = RigidTransform([0.12, 0.0, 0.2])
+    edges = np.array([[0.0, 0.0, 0.2]])
+    swing = swing_trajectory(X_WStart, X_WEnd, DURATION, PERIOD, edges, SOLE, PARAMS)
+    assert swing.status == "ok"
+    check_profile(swing, 0.0, 0.0, 0.2)
+    assert swing.clearance <= 0.02 + 1e-9
+    assert swing.clearance == pytest.approx(0.02, abs=2e-3)
+
+
 def test_the_toes_may_be_lifted_and_the_foot_drawn_back() -> None:
     """Both over within the swing; the sole keeps its clearances."""
     params = SwingParams(swing_pitch=-0.2, retraction=0.015)

@@ -18,6 +18,8 @@ from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import Context, DiagramBuilder
 from pydrake.systems.primitives import ConstantVectorSource
 
+from diagrams.station import DRAKE_CONTACT_MODELS
+from models.contact_geometry import CONTACT_MODELS, ContactModel
 from models.jvrc1 import JVRC1
 from models.robot import JointGains
 from models.robot_loader import add_robot
@@ -45,20 +47,21 @@ class Standing:
     weight: float
 
 
-@pytest.fixture(scope="module")
-def standing() -> Standing:
+@pytest.fixture(scope="module", params=CONTACT_MODELS)
+def standing(request: pytest.FixtureRequest) -> Standing:
     """After 4 s of holding a posture that loads the feet unevenly."""
+    model: ContactModel = request.param
     builder = DiagramBuilder()
     plant, scene_graph = AddMultibodyPlant(
         MultibodyPlantConfig(
             time_step=0.0025,
-            contact_model="point",
+            contact_model=DRAKE_CONTACT_MODELS[model],
             discrete_contact_approximation="lagged",
         ),
         builder,
     )
     add_solids(plant, RoomParams().solids())
-    robot = add_robot(plant, scene_graph, STIFF)
+    robot = add_robot(plant, scene_graph, STIFF, model)
     plant.Finalize()
     yaw = 0.6
     base = plant.GetBodyByName(JVRC1.base_body, robot)
@@ -164,16 +167,21 @@ def test_wrenches_are_those_of_the_contacts(standing: Standing) -> None:
     """Each foot has its own, moved to its sole frame, whichever body is named first."""
     results = standing.plant.get_contact_results_output_port().Eval(standing.context)
     assert isinstance(results, ContactResults)
-    feet = [
-        standing.plant.GetBodyByName(JVRC1.foot_bodies[foot]).index() for foot in FEET
-    ]
+    plant = standing.plant
+    bodies = [plant.GetBodyByName(JVRC1.foot_bodies[foot]) for foot in FEET]
+    feet = {
+        geometry: k
+        for k, body in enumerate(bodies)
+        for geometry in plant.GetCollisionGeometriesForBody(body)
+    }
     np.testing.assert_allclose(
         sum_wrenches(results, feet, standing.X_WF), standing.wrenches, atol=1e-12
     )
-    swapped = sum_wrenches(results, feet[::-1], standing.X_WF[::-1])
+    other = {geometry: 1 - k for geometry, k in feet.items()}
+    swapped = sum_wrenches(results, other, standing.X_WF[::-1])
     np.testing.assert_allclose(swapped[::-1], standing.wrenches, atol=1e-12)
     # The floor feels the opposite.
-    floor = [standing.plant.world_body().index()]
+    floor = dict.fromkeys(plant.GetCollisionGeometriesForBody(plant.world_body()), 0)
     world = sum_wrenches(results, floor, [RigidTransform()])[0]
     force, moment = in_world(standing)
     np.testing.assert_allclose(world, -np.concatenate([force, moment]), atol=1e-9)

@@ -1,12 +1,12 @@
 """What beams meet, against closed forms and against one tree of everything."""
 
 import numpy as np
-import open3d as o3d
 import pytest
 from pydrake.math import RigidTransform, RollPitchYaw
 
 from models.room import RoomParams
 from models.solids import Box, TriangleMesh, triangle_mesh, upright_pose
+from systems.open3d_loader import open3d as o3d
 from systems.sensing.ray_caster import BodyMesh, RayCaster
 from systems.sensing.scan_geometry import beam_angles, beam_directions, tilt_pose
 

@@ -148,11 +148,15 @@ def test_two_runs_see_the_same_bit_for_bit() -> None:
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"line_period": 0.0}, "line_period: must be positive, got 0 s"),
+        ({"line_period": 0.0}, "line_period: must be at least 0.001 s, got 0 s"),
         ({"resolution_deg": 0.7}, "resolution_deg: must divide 270 deg, got 0.7 deg"),
         ({"tilt_step_deg": 7.0}, "tilt_step_deg: must divide 60 deg, got 7 deg"),
         ({"tilt_end_deg": 30.0}, "tilt_end_deg: must exceed tilt_start_deg, got 30"),
-        ({"max_range": 0.05}, "max_range: must be finite and exceed min_range"),
+        ({"max_range": 0.05}, "max_range: must exceed min_range, got 0.05 m"),
+        (
+            {"tilt_step_deg": 0.02, "resolution_deg": 0.02},
+            "at most 1e.07 points",
+        ),
         ({"noise": -0.1}, "noise: must be at least 0 m, got -0.1 m"),
         ({"field_of_view_deg": 360.0}, "field_of_view_deg: must be less than a turn"),
         ({"seed": -1}, "seed: must be at least 0, got -1"),

@@ -1,0 +1,112 @@
+"""What `footfall run` does: simulates, writes the folder, prints, and draws at last."""
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from pathlib import Path
+
+from pydrake.geometry import Meshcat
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+from diagrams.illustrations import illustrate
+from diagrams.interruption import StopSignals
+from diagrams.run_folder import make_numbered, require_usable, run_name
+from diagrams.scenario import Scenario
+from diagrams.simulation import run_task
+from diagrams.summary import Summary
+from diagrams.summary_table import print_summary
+from diagrams.task_diagram import TaskDiagram
+
+RUNS_FOLDER = Path("runs")
+"""Where runs go by default."""
+TOLD_EVERY = 10.0
+"""How often progress is told where there is no terminal, s of simulated time."""
+
+
+def run_scenario(
+    scenario: Scenario,
+    changes: Sequence[str],
+    out: Path | None,
+    build: Callable[[Scenario, Meshcat | None], TaskDiagram],
+    stop: StopSignals,
+    start_meshcat: Callable[[], Meshcat] | None = None,
+) -> Summary:
+    """Simulates a scenario, writes its folder, prints its summary, draws its pictures.
+
+    What a signal ends is judged and printed like any other run, and not drawn.
+
+    Args:
+        scenario: what is run.
+        changes: "key=value" each, by which it differs from what its name says.
+        out: where the run goes, new or empty; None for a numbered folder below
+            `RUNS_FOLDER` that tells scenario, seed and changes.
+        build: makes the closed loop of a scenario.
+        stop: notes the signals that come while the run is judged.
+        start_meshcat: gives what shows it live; None where nothing does.
+
+    Raises:
+        OutError: `out` cannot be used.
+        OSError: the folder cannot be made.
+        RecordingError: it cannot be written to any more.
+        KeyboardInterrupt: a signal came; its message says what is left to draw.
+    """
+    if out is not None:
+        require_usable(out)
+    console = Console(stderr=True)
+    with _status(console, "building the diagram"):
+        meshcat = start_meshcat() if start_meshcat else None
+        task = build(scenario, meshcat)
+    if meshcat is not None:
+        console.print(f"watch at {meshcat.web_url()}")
+    folder = out or make_numbered(
+        RUNS_FOLDER, run_name(scenario.name, scenario.simulation.seed, changes)
+    )
+    limit = scenario.simulation.max_time
+    with _progress(console, limit) as progress:
+        rate = 1.0 if meshcat else 0.0
+        summary = run_task(task, scenario, folder, progress, rate, stop.held)
+    with stop.held():
+        print_summary(summary, folder)
+    try:
+        if summary.outcome == "interrupted" or stop.received is not None:
+            raise KeyboardInterrupt
+        with _status(console, "drawing replay, block diagram and figures"):
+            for complaint in illustrate(folder, task.diagram):
+                console.print(f"footfall: {complaint}", style="yellow", highlight=False)
+    except KeyboardInterrupt:
+        rest = f"interrupted; `footfall plot {folder}` draws what is missing"
+        raise KeyboardInterrupt(rest) from None
+    return summary
+
+
+@contextmanager
+def _progress(console: Console, limit: float) -> Iterator[Callable[[float, str], None]]:
+    """Is told time and activity, and shows them as a bar, or as a line now and then."""
+    if not console.is_terminal:
+        told = 0.0
+
+        def tell(time: float, activity: str) -> None:
+            nonlocal told
+            if time > told + TOLD_EVERY - 1e-9:
+                told += TOLD_EVERY
+                doing = f": {activity}" if activity else ""
+                line = f"{time:.4g} s of at most {limit:g} s{doing}"
+                console.print(line, highlight=False, markup=False, soft_wrap=True)
+
+        yield tell
+        return
+    with Progress(
+        TextColumn("{task.fields[activity]:<6}"),
+        BarColumn(),
+        TextColumn("{task.completed:6.1f} s of at most {task.total:g} s, took"),
+        TimeElapsedColumn(),
+        console=console,
+        transient=True,
+    ) as bar:
+        job = bar.add_task("", total=limit, activity="")
+        yield lambda time, activity: bar.update(job, completed=time, activity=activity)
+
+
+def _status(console: Console, doing: str) -> AbstractContextManager[object]:
+    """Where there is no terminal a spinner would only fill the log with blank lines."""
+    return console.status(doing) if console.is_terminal else nullcontext()

@@ -1,0 +1,83 @@
+"""Thinking takes time: how long, and what holds a result until it is there."""
+
+import dataclasses
+from dataclasses import dataclass, field, fields
+from math import ceil
+from typing import Self
+
+from models.validation import require_at_least
+from systems.values import Value
+
+ROUNDING = 1e-6
+"""Times that differ by less are the same, s."""
+
+
+@dataclass(kw_only=True)
+class ThinkingParams:
+    """How long perception and planning take, s of simulated time.
+
+    A result rests on what was sensed when the thinking began and is there at the first
+    update after that time. The defaults are the 95th percentiles that
+    `tests/benchmarks/thinking_time.py` measured, rounded up to 10 ms; it writes them
+    here and, with the machine that it measured on, to `thinking_time.md` beside it.
+    """
+
+    segmentation: float = 0.49
+    """From a finished sweep to the staircase."""
+    obstacle_finding: float = 0.31
+    """From a finished sweep to the obstacles on the floor."""
+    room_perception: float = 0.09
+    """From a frame of the ceiling camera to floor and boxes."""
+    climb_planning: float = 0.47
+    """Footsteps on a staircase and the motion along them."""
+    quasi_static_climb_planning: float = 4.11
+    """The same where the motion is to be quasi-static."""
+    crossing_planning: float = 0.27
+    """Footsteps over obstacles and the motion along them."""
+    quasi_static_crossing_planning: float = 0.21
+    """The same where the motion is to be quasi-static."""
+    room_planning: float = 0.04
+    """A path through a room, the footsteps along it and their motion."""
+    stopping: float = 0.03
+    """A motion that ends a walk early."""
+
+    def validate(self) -> None:
+        """Checks every field.
+
+        Raises:
+            ValueError: "field: reason, got x" for the first field that is wrong.
+        """
+        for item in fields(self):
+            require_at_least(item.name, getattr(self, item.name), 0.0, "s")
+
+
+@dataclass(frozen=True, eq=False)
+class Thought(Value):
+    """Base of a System's state of which the next one may already be worked out."""
+
+    coming: Self | None = field(default=None, kw_only=True)
+    """What this becomes; None where nothing is being worked out."""
+    ready: float = field(default=0.0, kw_only=True)
+    """When it becomes that, s."""
+
+    def until(self, ready: float, coming: Self) -> Self:
+        """This state until a time, s, another from then on."""
+        return dataclasses.replace(self, coming=coming, ready=ready)
+
+    def at(self, time: float) -> Self:
+        """What this has become by a time, s; itself where nothing has come."""
+        state = self
+        while state.coming is not None and time >= state.ready - ROUNDING:
+            state = state.coming
+        return state
+
+
+def ready_time(time: float, latency: float, period: float) -> float:
+    """When the result of thinking is there: at an update, as early as that may be.
+
+    Args:
+        time: of the update at which the thinking begins, s.
+        latency: how long it takes, s.
+        period: between updates, s.
+    """
+    return time + ceil((latency - ROUNDING) / period) * period
