@@ -156,7 +156,10 @@ def swing_clearance(
             if not p_toe[0, 0] < 0.0 < p_toe[-1, 0]:
                 continue
             tail = p_heel if p_heel[-1, 0] > 0.0 else p_toe
-            passed = int(np.flatnonzero(tail[:, 0] <= 0.0)[-1]) + 1
+            short = np.flatnonzero(tail[:, 0] <= 0.0)
+            if not len(short):  # a foot that tumbles, its heel first
+                continue
+            passed = int(short[-1]) + 1
             clearances.append(_least_distance_to_origin(tail[:passed], p_toe[:passed]))
     return min(clearances, default=None)
 

@@ -125,7 +125,7 @@ def standing_task(
     plant, scene_graph = AddMultibodyPlant(
         MultibodyPlantConfig(
             time_step=TIME_STEP,
-            contact_model="point",
+            contact_model="hydroelastic_with_fallback",
             discrete_contact_approximation="sap",
         ),
         builder,

@@ -136,6 +136,17 @@ def test_clearance_of_an_overhanging_landing_is_that_of_the_toes() -> None:
     assert clearance == pytest.approx(0.03, abs=1e-3)
 
 
+def test_a_foot_that_tumbles_over_an_edge_heel_first_has_no_clearance() -> None:
+    """A robot that falls down the stairs is measured too."""
+    edges = nosings(StaircaseParams(steps=1, x=0.0).treads())
+    corners = np.stack([sole(0.1, z=0.3, yaw=np.pi), sole(0.3, z=0.3)])
+    force = np.array([WEIGHT, WEIGHT])
+    path = np.stack([corners[0], corners[0], corners[1], corners[1]])
+    assert path[0, [1, 2], 0].max() < 0.0 < path[0, [0, 3], 0].min()
+    loads = np.array([force[0], 0.0, 0.0, force[1]])
+    assert swing_clearance(path, loads, WEIGHT, edges) is None
+
+
 def test_passing_through_the_step_is_negative_and_passing_none_is_none() -> None:
     """2 cm below the nosing is -2 cm."""
     edges = nosings(StaircaseParams(steps=1, x=0.0).treads())

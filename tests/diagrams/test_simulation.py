@@ -30,8 +30,8 @@ def test_a_task_without_stairs_is_completed_by_standing(tmp_path, standing) -> N
     scenario = standing.scenario(seed=7)
     summary = run_task(standing.task(), scenario, tmp_path / "a" / "run")
     assert summary.outcome == "completed"
-    # It is at rest 0.28 s after the start, a second and two looks more.
-    assert 1.2 < summary.simulated_time_s < 1.7
+    # Done after 0.2 s it is given five seconds to come to rest, which takes one.
+    assert 1.2 < summary.simulated_time_s < 5.2
     assert summary.max_impact_body_weights == pytest.approx(0.5, abs=0.1)
     assert 0.0 < summary.min_zmp_margin_m < 0.1
     run = load_run(tmp_path / "a" / "run")
