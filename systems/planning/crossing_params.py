@@ -92,7 +92,7 @@ class CrossingParams(Parameters):
     stretch its knee by another 0.08 rad."""
     lean: float = number(0.0, "rad", least=0.0, below=RIGHT_ANGLE)
     """Forward pitch of the pelvis while crossing, rad."""
-    inward: float = number(0.07, "m", least=0.0)
+    inward: float = number(0.09, "m", least=0.0)
     """How far the foot over the obstacle is drawn towards the other one, m: the waist
     sways to that side, and a folded leg that hangs outwards rolls its hip too far."""
     waist_roll: float = number(0.05, "rad", least=0.0, below=RIGHT_ANGLE)

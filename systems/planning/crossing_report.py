@@ -116,17 +116,17 @@ def refusal_of(report: CrossingReport, crossing: CrossingParams) -> str:
             f"{what}: {report.torque_joint} takes {report.torque_share:.2f} of its "
             f"effort limit, more than {crossing.most_torque:.2f}"
         )
-    error = max(report.zmp_error_after)
-    if error > crossing.most_zmp_error:
-        return (
-            f"{what}: Eq. 20: the ZMP leaves its reference by {1e3 * error:.0f} mm, "
-            f"more than {1e3 * crossing.most_zmp_error:.0f} mm"
-        )
     if report.self_distance < crossing.least_self_distance:
         return (
             f"{what}: {' and '.join(report.self_bodies)} come within "
             f"{1e3 * report.self_distance:.0f} mm of each other, less than "
             f"{1e3 * crossing.least_self_distance:.0f} mm"
+        )
+    error = max(report.zmp_error_after)
+    if error > crossing.most_zmp_error:
+        return (
+            f"{what}: Eq. 20: the ZMP leaves its reference by {1e3 * error:.0f} mm, "
+            f"more than {1e3 * crossing.most_zmp_error:.0f} mm"
         )
     balance, quasi = report.balance, crossing.quasi_static
     if balance is None:

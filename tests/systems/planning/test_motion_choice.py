@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from models.jvrc1 import JVRC1
+from models.self_distance import SelfDistance
 from systems.balance.zmp_preview import ZmpPreviewParams
 from systems.planning.choice_params import ChoiceParams
 from systems.planning.motion_choice import (
@@ -121,6 +122,7 @@ def prediction(**changes: object) -> MotionPrediction:
         "stray": np.zeros(100),
         "gaps": np.full((100, 1), 0.1),
         "limbs": ("SHIN",),
+        "self_distances": (SelfDistance(0.02, ("", "")),) * 100,
     }
     return MotionPrediction(**(values | changes))
 
@@ -143,6 +145,12 @@ def test_each_quantity_has_its_reason() -> None:
     assert violation(prediction(gaps=np.full((100, 1), -0.02)), 0.3, choice)[1] == (
         "clearance: SHIN would come within -0.020 m of a nosing at 0.0 s, less than "
         "0.005 m"
+    )
+    met = [SelfDistance(0.02, ("", ""))] * 100
+    met[60] = SelfDistance(-0.004, ("PELVIS", "THIGH"))
+    assert violation(prediction(self_distances=tuple(met)), 0.3, choice)[1] == (
+        "clearance: PELVIS and THIGH would come within -0.004 m of each other at "
+        "1.2 s, less than 0.002 m"
     )
     stray = violation(prediction(stray=late * 20.0), 0.3, choice)[1]
     assert stray.startswith("reach: the upper body would have to stray 1.00 rad")
