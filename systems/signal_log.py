@@ -3,7 +3,6 @@
 import numpy as np
 from pydrake.common.value import Value
 from pydrake.systems.framework import (
-    CacheEntry,
     Context,
     EventStatus,
     InputPort,
@@ -56,7 +55,7 @@ class SignalLog(LeafSystem):
         if not period > 0.0:
             raise ValueError(f"period: must be positive, got {period} s")
         self._signals: list[InputPort] = []
-        self._log: CacheEntry = self.DeclareCacheEntry(
+        log = self.DeclareCacheEntry(
             "log",
             ValueProducer(
                 allocate=lambda: Value[object]([]),
@@ -64,6 +63,8 @@ class SignalLog(LeafSystem):
             ),
             {self.nothing_ticket()},
         )
+        # The entry itself would keep this System alive.
+        self._log = log.cache_index()
         sample = timed(self, self._sample)
         self.DeclareInitializationPublishEvent(sample)
         # With an offset the times of the ticks would differ from the controllers' in
@@ -95,7 +96,8 @@ class SignalLog(LeafSystem):
         self._rows(self.GetMyContextFromRoot(root_context)).clear()
 
     def _rows(self, context: Context) -> list[Vector]:
-        held = self._log.get_mutable_cache_entry_value(context)
+        entry = self.get_cache_entry(self._log)
+        held = entry.get_mutable_cache_entry_value(context)
         rows = held.GetMutableValueOrThrow()
         if not isinstance(rows, list):
             raise TypeError(f"the log holds {type(rows).__name__}, expected a list")

@@ -220,14 +220,14 @@ def test_meshcat_listens_where_it_is_told(stand, tmp_path, monkeypatch) -> None:
 
 
 def test_ctrl_c_before_anything_is_simulated(stand, monkeypatch) -> None:
-    """Status 130, and nothing is said."""
+    """Status 130, and that is all that is said."""
 
     def interrupted(*_: object, **__: object) -> None:
         raise KeyboardInterrupt
 
     monkeypatch.setattr(sys.modules["diagrams.tasks"], "build_task", interrupted)
     result = footfall("run", stand)
-    assert (result.exit_code, result.output) == (130, "")
+    assert (result.exit_code, result.output) == (130, "footfall: interrupted\n")
 
 
 def test_pictures_of_a_run_are_made_again(stand, tmp_path) -> None:
