@@ -202,14 +202,18 @@ def test_a_foot_that_is_not_drawn_in_rolls_the_hip_beyond_its_limit() -> None:
 def test_the_third_repair_acts_where_the_others_do_not(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """Over a thin high slat the second shin is less deep in the margin for it."""
-    yielding, _ = planned(0.024, 0.291)
+    """Over a thin high slat the second shin is less deep in the margin for it.
+
+    With the pelvis level and the foot hardly drawn in: raised hips leave it nothing.
+    """
+    level = CrossingParams(inward=0.03, waist_roll=0.0)
+    yielding, _ = planned(0.024, 0.291, level)
     path = yielding.report.repairs.path
     assert path.size
     assert path.min() < -0.005
     assert path.max() <= 0.0
     monkeypatch.setattr(crossing_course, "yielding_path", lambda *_: None)
-    stiff, _ = planned(0.024, 0.291)
+    stiff, _ = planned(0.024, 0.291, level)
     assert not stiff.report.repairs.path.size
     assert yielding.report.repairs.shift == stiff.report.repairs.shift
     assert yielding.report.repairs.raised == stiff.report.repairs.raised

@@ -62,7 +62,7 @@ def test_what_cannot_be_less_bad_is_not_looked_at_to_its_end(
 ) -> None:
     """And the refusal is the one that looking at everything gives."""
     choice = ChoiceParams(
-        quasi_static_leans=[0.6, 0.45],
+        quasi_static_leans=[0.6, 0.75],
         quasi_static_toe_offs=[0.85],
         quasi_static_forwards=[0.12],
     )
