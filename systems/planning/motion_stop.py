@@ -10,6 +10,9 @@ from systems.planning.motion_params import MotionPlannerParams
 from systems.ports import Vector
 from systems.values import Footstep, MotionPlan, other_foot
 
+COMMITTED = 1.6
+"""What lies farther ahead than this moves the CoM by less than a millimetre now, s."""
+
 
 def stop_early(
     plan: MotionPlan,
@@ -21,9 +24,9 @@ def stop_early(
 ) -> MotionPlan | None:
     """The plan with its footsteps cut off as soon as balance allows.
 
-    The steps that land within the preview's horizon are kept, since the CoM already
-    moves for them; one more puts the feet side by side. Planned anew from the same
-    start, the motion is the same until then but for what the preview shows of the end.
+    The steps that land within `COMMITTED` are kept, since the CoM already moves for
+    them; one more puts the feet side by side. Planned anew from the same start, the
+    motion is the same until then but for what the preview shows of the end.
 
     Args:
         plan: on level ground; what is being carried out.
@@ -36,7 +39,7 @@ def stop_early(
     Returns:
         The shorter plan with the same start time; None where the plan ends as soon.
     """
-    horizon = time - plan.start_time + preview.preview_time
+    horizon = time - plan.start_time + min(preview.preview_time, COMMITTED)
     lands = [phase.end for phase in plan.phases if phase.swing is not None]
     kept = sum(land < horizon for land in lands) + 1
     if kept + 1 >= len(lands):

@@ -10,11 +10,11 @@ from models.jvrc1 import JVRC1
 from systems.balance.zmp_preview import ZmpPreviewParams
 from systems.planning.motion import plan_motion
 from systems.planning.motion_params import MotionPlannerParams
-from systems.planning.motion_stop import stop_early
+from systems.planning.motion_stop import COMMITTED, stop_early
 from systems.values import Footstep, MotionPlan
 
 PARAMS = MotionPlannerParams()
-PREVIEW = ZmpPreviewParams(com_height=0.85)
+PREVIEW = ZmpPreviewParams(com_height=0.85, preview_time=2.4)
 WIDTH = 0.19
 START = np.array([[0.0, WIDTH / 2, 0, 0, 0, 0], [0.0, -WIDTH / 2, 0, 0, 0, 0]])
 COM = np.array([0.035, 0.0, 0.85])
@@ -68,11 +68,11 @@ def test_it_ends_standing_side_by_side(time: float) -> None:
 
 
 def test_it_takes_few_more_steps() -> None:
-    """Those that land within the preview, one to stop on and one beside it."""
+    """Those the CoM moves for already, one to stop on and one beside it."""
     shorter = stopped(1.5)
     assert shorter is not None
     lands = [phase.end for phase in walk().phases if phase.swing is not None]
-    within = sum(land < 1.5 + PREVIEW.preview_time for land in lands)
+    within = sum(land < 1.5 + COMMITTED for land in lands)
     assert len(shorter.footsteps) == within + 2
     assert shorter.footsteps[: within + 1] == walk().footsteps[: within + 1]
 
