@@ -22,19 +22,19 @@ class ThinkingParams(Parameters):
     here and, with the machine that it measured on, to `thinking_time.md` beside it.
     """
 
-    segmentation: float = number(0.49, "s", least=0.0)
+    segmentation: float = number(0.31, "s", least=0.0)
     """From a finished sweep to the staircase."""
-    obstacle_finding: float = number(0.31, "s", least=0.0)
+    obstacle_finding: float = number(0.26, "s", least=0.0)
     """From a finished sweep to the obstacles on the floor."""
-    room_perception: float = number(0.09, "s", least=0.0)
+    room_perception: float = number(0.08, "s", least=0.0)
     """From a frame of the ceiling camera to floor and boxes."""
     climb_planning: float = number(0.47, "s", least=0.0)
     """Footsteps on a staircase and the motion along them."""
-    quasi_static_climb_planning: float = number(4.11, "s", least=0.0)
+    quasi_static_climb_planning: float = number(1.87, "s", least=0.0)
     """The same where the motion is to be quasi-static."""
-    crossing_planning: float = number(0.27, "s", least=0.0)
+    crossing_planning: float = number(0.36, "s", least=0.0)
     """Footsteps over obstacles and the motion along them."""
-    quasi_static_crossing_planning: float = number(0.21, "s", least=0.0)
+    quasi_static_crossing_planning: float = number(0.34, "s", least=0.0)
     """The same where the motion is to be quasi-static."""
     room_planning: float = number(0.04, "s", least=0.0)
     """A path through a room, the footsteps along it and their motion."""
