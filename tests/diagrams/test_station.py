@@ -14,7 +14,9 @@ from diagrams.station import Station, add_station, robot_alone
 from diagrams.task_diagram import TaskDiagram
 from diagrams.tasks import build_task
 from models.jvrc1 import JVRC1
-from systems.ports import Vector, eval_vector
+from models.self_distance import SelfDistanceMeter
+from systems.ports import Vector, eval_abstract, eval_vector
+from systems.values import Touches
 
 WEIGHT = 62.4 * 9.81
 
@@ -172,3 +174,26 @@ def test_everything_is_watched_in_every_task(scenario: str) -> None:
     assert len(watched.bodies) > 25
     soles = [part for part in watched.part_of.values() if part.sole]
     assert {part.body for part in soles} == set(watched.feet)
+
+
+def test_legs_that_are_pushed_together_meet() -> None:
+    """They do not pass through each other, and the monitor names them."""
+    force = "time: 0.1, duration: 0.4, force: [0.0, {}, 0.0]"
+    pushes = ", ".join(
+        f"{{body: {side}_KNEE_S, {force.format(newtons)}}}"
+        for side, newtons in (("L", -900.0), ("R", 900.0))
+    )
+    standing = stand(0.5, f"task.pushes=[{pushes}]", "robot.x=-1.0")
+    task = standing.task
+    monitor = task.diagram.GetSubsystemByName("contact_monitor")
+    touches = eval_abstract(
+        monitor.GetOutputPort("touches"),
+        monitor.GetMyContextFromRoot(standing.root),
+        Touches,
+    )
+    met = {frozenset((touch.body, touch.solid)): touch for touch in touches.touches}
+    touch = met[frozenset(JVRC1.foot_bodies.values())]
+    assert touch.peak_force > 100.0
+    context = task.plant.GetMyContextFromRoot(standing.root)
+    positions = task.plant.GetPositions(context, task.robot_instance)
+    assert SelfDistanceMeter(JVRC1).nearest(positions, 0.02).distance > -0.005
