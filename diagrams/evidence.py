@@ -12,9 +12,10 @@ from pydrake.systems.framework import Context
 
 from diagrams.box_clearance import box_clearances
 from diagrams.crossing_judge import CrossingEvidence
-from diagrams.self_distance import SelfDistance, least_self_distance, lone_robot
+from diagrams.self_distance import NearestApproach, nearest_approach
 from diagrams.task_diagram import TaskDiagram
 from diagrams.true_motion import TrueMotion, true_motion
+from models.self_distance import SelfDistanceMeter
 from models.solid_names import is_box, is_ground
 from models.staircase import Tread
 from systems.obstacle_values import ObstacleMap
@@ -71,7 +72,7 @@ class Evidence:
     touches: tuple[Touch, ...] | None = None
     """What the robot met that it must not, of the scene and of itself; None where
     unknown."""
-    self_distance: SelfDistance | None = None
+    self_distance: NearestApproach | None = None
     """The nearest that two of its bodies came; None where far apart or unknown."""
     activities: tuple[tuple[float, str], ...] | None = None
     """When, s, the executive turned to what; None where that was not logged."""
@@ -129,7 +130,11 @@ def gather(
         ),
         goal=task.goal,
         touches=touches[-1].touches if touches else None,
-        self_distance=least_self_distance(lone_robot(task.robot), time, state),
+        self_distance=nearest_approach(
+            SelfDistanceMeter(task.robot),
+            time,
+            state[:, : task.plant.num_positions(task.robot_instance)],
+        ),
         activities=tuple(activities) or None,
         segmentations=tuple(
             entry.value

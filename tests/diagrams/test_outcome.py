@@ -9,7 +9,7 @@ from pydrake.math import RigidTransform, RollPitchYaw, RotationMatrix
 
 from diagrams.evidence import Evidence
 from diagrams.outcome import judge
-from diagrams.self_distance import SelfDistance
+from diagrams.self_distance import NearestApproach
 from diagrams.true_motion import TrueMotion, sole_corners_F
 from models.jvrc1 import JVRC1
 from systems.ports import Vector
@@ -369,7 +369,7 @@ def test_a_touch_fails(climb: Evidence, body: str, met: str) -> None:
 
 def test_the_least_distance_to_itself_is_told(climb: Evidence) -> None:
     """With the two bodies."""
-    near = SelfDistance(0.012, ("L_KNEE_S", "R_KNEE_S"), 3.0)
+    near = NearestApproach(0.012, ("L_KNEE_S", "R_KNEE_S"), 3.0)
     judgement = judge(replace(climb, self_distance=near))
     assert judgement.min_self_distance_m == 0.012
     assert judgement.min_self_distance_bodies == ("L_KNEE_S", "R_KNEE_S")

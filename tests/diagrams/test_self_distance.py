@@ -1,64 +1,64 @@
-"""How near a robot comes to itself."""
+"""How near a robot comes to itself over a run."""
 
 import numpy as np
 import pytest
-from pydrake.geometry import CollisionFilterDeclaration, GeometrySet
 
-from diagrams.self_distance import LoneRobot, least_self_distance, lone_robot
+from diagrams.self_distance import nearest_approach
+from diagrams.station import robot_alone
 from models.jvrc1 import JVRC1
+from models.self_distance import SelfDistanceMeter
 from systems.ports import Vector
 
 SHINS = ("L_KNEE_S", "R_KNEE_S")
 
 
-@pytest.fixture
-def shins() -> LoneRobot:
-    """The robot, of which the two shins alone may collide."""
-    alone = lone_robot(JVRC1)
-    inspector = alone.scene_graph.model_inspector()
-    every = GeometrySet(inspector.GetAllGeometryIds())
-    pair = [
-        GeometrySet(
-            alone.plant.GetCollisionGeometriesForBody(alone.plant.GetBodyByName(name))
-        )
-        for name in SHINS
-    ]
-    filters = alone.scene_graph.collision_filter_manager()
-    filters.Apply(CollisionFilterDeclaration().ExcludeWithin(every))
-    filters.Apply(CollisionFilterDeclaration().AllowBetween(*pair))
-    return alone
+@pytest.fixture(scope="module")
+def meter() -> SelfDistanceMeter:
+    """Built once."""
+    return SelfDistanceMeter(JVRC1)
 
 
-def states(alone: LoneRobot, rolls: list[float]) -> Vector:
-    """The robot with its left hip rolled, a row each."""
-    context = alone.plant.CreateDefaultContext()
+def postures(*rolls: float) -> Vector:
+    """The robot with its left hip rolled, rad, a row each."""
+    plant = robot_alone(JVRC1)
+    context = plant.CreateDefaultContext()
     rows = []
     for roll in rolls:
-        alone.plant.GetJointByName("L_HIP_R").set_angle(context, roll)
-        rows.append(alone.plant.GetPositionsAndVelocities(context, alone.instance))
+        plant.GetJointByName("L_HIP_R").set_angle(context, roll)
+        rows.append(plant.GetPositions(context))
     return np.array(rows)
 
 
-def test_the_nearest_pair_is_named_with_its_time(shins: LoneRobot) -> None:
+def test_the_nearest_pair_is_named_with_its_time(meter: SelfDistanceMeter) -> None:
     """A leg that swings in comes nearer, in the end through the other."""
-    near = least_self_distance(
-        shins, np.array([0.0, 0.1, 0.2]), states(shins, [0.0, -0.12, 0.0])
-    )
+    time = np.array([0.0, 0.1, 0.2])
+    near = nearest_approach(meter, time, postures(0.0, -0.05, 0.0))
     assert near is not None
-    assert (near.bodies, near.time) == (SHINS, 0.1)
-    assert 0.0 < near.distance < 0.1
-    inside = least_self_distance(
-        shins, np.array([0.0, 0.1, 0.2]), states(shins, [-0.12, -0.2, -0.5])
-    )
+    assert near.time == 0.1
+    assert 0.0 < near.distance < 0.05
+    inside = nearest_approach(meter, time, postures(-0.2, -0.3, -0.5))
     assert inside is not None
+    assert inside.time == 0.2
     assert inside.distance < 0.0
-    assert inside.distance < near.distance
+    assert set(inside.bodies) == set(SHINS)
 
 
-def test_bodies_that_may_not_collide_have_no_distance(shins: LoneRobot) -> None:
-    """Nor have those that are far from each other."""
-    assert least_self_distance(shins, np.array([0.0]), states(shins, [0.5])) is None
-    filters = shins.scene_graph.collision_filter_manager()
-    every = GeometrySet(shins.scene_graph.model_inspector().GetAllGeometryIds())
-    filters.Apply(CollisionFilterDeclaration().ExcludeWithin(every))
-    assert least_self_distance(shins, np.array([0.0]), states(shins, [-0.12])) is None
+def test_it_is_looked_at_every_tick_of_a_run(meter: SelfDistanceMeter) -> None:
+    """Of rows at 200 Hz every fifth; what lies between them is not seen."""
+    time = np.arange(10) * 0.005
+    rolls = np.zeros(10)
+    rolls[5] = -0.3
+    seen = nearest_approach(meter, time, postures(*rolls))
+    assert seen is not None
+    assert seen.time == pytest.approx(0.025)
+    missed = nearest_approach(meter, time, postures(*np.roll(rolls, 1)))
+    assert missed is not None
+    assert missed.distance > 0.0
+
+
+def test_bodies_that_are_far_have_no_distance(
+    meter: SelfDistanceMeter, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """None where nothing came within reach."""
+    monkeypatch.setattr("diagrams.self_distance.REACH", 1e-4)
+    assert nearest_approach(meter, np.array([0.0]), postures(0.0)) is None
