@@ -36,7 +36,7 @@ def test_the_nearest_pair_is_named_with_its_time(meter: SelfDistanceMeter) -> No
     assert near is not None
     assert near.time == 0.1
     assert 0.0 < near.distance < 0.05
-    inside = nearest_approach(meter, time, postures(-0.2, -0.3, -0.5))
+    inside = nearest_approach(meter, time, postures(-0.1, -0.2, -0.3))
     assert inside is not None
     assert inside.time == 0.2
     assert inside.distance < 0.0
