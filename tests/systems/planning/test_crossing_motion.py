@@ -7,7 +7,7 @@ import pytest
 
 from systems.planning import crossing_course
 from systems.planning.crossing_params import CrossingParams, ways_of_crossing
-from systems.planning.crossing_report import CrossingMotion
+from systems.planning.crossing_report import CrossingMotion, refusal_of
 from systems.planning.feasibility_unit import FeasibilityParams
 from systems.planning.feet_adaptor import ankle_displacement
 from systems.planning.foot_trajectory_generator import FootTrajectoryParams
@@ -218,3 +218,16 @@ def test_the_third_repair_acts_where_the_others_do_not(
     assert yielding.report.repairs.shift == stiff.report.repairs.shift
     assert yielding.report.repairs.raised == stiff.report.repairs.raised
     assert yielding.report.gap > stiff.report.gap + 0.003
+
+
+def test_a_thigh_that_meets_the_pelvis_is_refused(motion: CrossingMotion) -> None:
+    """With both names; the crossing as it is keeps them apart."""
+    params = CrossingParams()
+    assert motion.report.self_distance > params.least_self_distance
+    straight = CrossingParams(inward=0.0, waist_roll=0.0)
+    meeting, _ = planned(0.05, 0.15, straight)
+    assert meeting.report.self_distance < 0.0
+    assert meeting.report.self_bodies == ("PELVIS_S", "R_HIP_Y_S")
+    assert "PELVIS_S and R_HIP_Y_S come within -" in refusal_of(
+        meeting.report, straight
+    )

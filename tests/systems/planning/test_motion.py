@@ -221,6 +221,18 @@ def test_the_zmp_sets_off_and_arrives_without_a_jump(name: str) -> None:
     np.testing.assert_allclose(zmp[:2], wanted[:2], atol=0.003)
 
 
+def test_a_climbing_foot_swings_inwards_under_a_raised_hip() -> None:
+    """The right one to the left, the right hip up; in a walk neither."""
+    climb, walk = plan("climb"), plan("walk")
+    swing = next(phase for phase in climb.phases if phase.swing == "right")
+    rows = slice(round(swing.start / climb.period), round(swing.end / climb.period) + 1)
+    aside = climb.foot_poses[rows, 1, 1] - START[1, 1]
+    assert aside.max() == pytest.approx(PARAMS.climb_inward, rel=1e-3)
+    assert aside.min() > -1e-9
+    np.testing.assert_allclose(climb.waist[rows, 0], -PARAMS.climb_roll)
+    np.testing.assert_allclose(walk.foot_poses[:, 1, 1], START[1, 1], atol=1e-9)
+
+
 def test_standing_is_a_plan_without_steps() -> None:
     """Nothing moves in it."""
     stand = plan("stand")

@@ -7,7 +7,7 @@ from models.jvrc1 import JVRC1
 from systems.balance.zmp_preview import ZmpPreviewParams
 from systems.planning.motion import plan_motion
 from systems.planning.motion_params import MotionPlannerParams
-from systems.planning.motion_prediction import edge_gaps
+from systems.planning.motion_prediction import SELF_RANGE, edge_gaps
 from systems.values import MotionPlan
 
 AHEAD = np.array([1.0, 0.0])
@@ -87,3 +87,29 @@ def test_prediction_may_begin_later(jvrc1) -> None:
     found = jvrc1.predictor.predict(standing(), np.zeros((0, 3)), 0.0, 0.02, 0.4)
     assert found.time[0] == pytest.approx(0.4)
     assert len(found.time) == 21
+
+
+def test_a_climb_is_held_against_the_robot_itself(jvrc1, step_24cm) -> None:
+    """Its thigh comes near the pelvis, and meets it where the foot swings straight."""
+
+    def nearest(**shape: float) -> tuple[float, tuple[str, str]]:
+        plan = plan_motion(
+            step_24cm.feet,
+            step_24cm.com,
+            step_24cm.footsteps,
+            step_24cm.edges,
+            MotionPlannerParams(**shape),
+            ZmpPreviewParams(com_height=0.85),
+            JVRC1,
+        )
+        found = jvrc1.predictor.predict(plan, step_24cm.edges, 0.0)
+        worst, when = found.worst_self_distance()
+        assert worst == found.self_distances[int(np.searchsorted(found.time, when))]
+        return worst.distance, worst.bodies
+
+    kept, bodies = nearest()
+    assert 0.003 < kept < SELF_RANGE
+    assert bodies == ("PELVIS_S", "R_HIP_Y_S")
+    met, bodies = nearest(climb_inward=0.0, climb_roll=0.0)
+    assert met < -0.005
+    assert bodies == ("PELVIS_S", "R_HIP_Y_S")
