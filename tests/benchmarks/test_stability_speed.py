@@ -1,6 +1,6 @@
 """How long stability polygons take, beside what pip offers, and preview of a walk.
 
-Run with `pytest --benchmark-only tests/benchmarks/test_stability_speed.py`.
+Run with `pytest -n 0 --benchmark-only tests/benchmarks/test_stability_speed.py`.
 """
 
 from collections.abc import Callable

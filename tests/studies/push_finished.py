@@ -9,8 +9,11 @@ early calls all of them completed.
 """
 
 import argparse
+import multiprocessing
 import tempfile
 from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -74,23 +77,32 @@ def row(name: str, push: str, summary: Summary) -> str:
     )
 
 
+def rows(name: str, overrides: list[str]) -> list[str]:
+    """The lines of one scenario: as it is, then with every push."""
+    summary, finished = run(name, overrides, None)
+    found = [row(name, "none", summary)]
+    for what, push in pushes(name, finished):
+        summary, _ = run(name, overrides, push)
+        found.append(row(name, what, summary))
+    return found
+
+
 def main() -> None:
     """Runs all combinations and writes a table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--out", type=Path, default=Path("push_finished.md"))
     parser.add_argument("--scenarios", nargs="+", default=list(SCENARIOS))
     parser.add_argument("--set", dest="overrides", action="append", default=[])
+    parser.add_argument("--workers", type=int, default=2)
     arguments = parser.parse_args()
     lines = ["| " + " | ".join(COLUMNS) + " |", "|" + "---|" * len(COLUMNS)]
-    for name in arguments.scenarios:
-        summary, finished = run(name, arguments.overrides, None)
-        lines.append(row(name, "none", summary))
-        print(lines[-1], flush=True)
-        for what, push in pushes(name, finished):
-            summary, _ = run(name, arguments.overrides, push)
-            lines.append(row(name, what, summary))
-            print(lines[-1], flush=True)
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(arguments.workers, mp_context=context) as pool:
+        several = partial(rows, overrides=arguments.overrides)
+        for found in pool.map(several, arguments.scenarios):
+            lines += found
             arguments.out.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    print("\n".join(lines))
 
 
 if __name__ == "__main__":
