@@ -191,9 +191,12 @@ def _refuse(
         shapely.multipoints(np.concatenate([soles[:-2], soles[2:]], axis=1))
     )
     stances = shapely.polygons(soles[1:-1])
-    crossed = shapely.intersects(swept, stances)
+    crossed = shapely.dwithin(swept, stances, params.sole_gap - 1e-9)
     if crossed.any():
-        return Refusal(f"step {int(crossed.argmax()) + 1} would cross the feet")
+        return Refusal(
+            f"step {int(crossed.argmax()) + 1} would bring the feet nearer than "
+            f"{params.sole_gap:.2f} m to each other on the way"
+        )
     if boxes is not None:
         near = shapely.dwithin(swept[:, None], boxes[None, :], SOLE_CLEARANCE)
         if near.any():
