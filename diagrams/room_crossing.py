@@ -9,6 +9,7 @@ from pydrake.systems.framework import DiagramBuilder
 from pydrake.systems.primitives import ConstantValueSource, ConstantVectorSource
 
 from diagrams.evidence import MOVERS_SIGNAL
+from diagrams.obstacle_crossing import planning_body
 from diagrams.room_perception import add_perception
 from diagrams.scenario import ROBOTS, Scenario
 from diagrams.station import add_station
@@ -66,10 +67,11 @@ def build_room_crossing(
             station.kinematics.GetOutputPort("foot_poses"),
             planner.GetInputPort("foot_poses"),
         )
+    body = planning_body(robot, station.model)
     motion = add_system(
         builder,
         "motion_planner",
-        MotionPlanner(params.motion_planner, params.zmp_preview, robot),
+        MotionPlanner(params.motion_planner, params.zmp_preview, robot, body=body),
     )
     builder.Connect(
         footsteps.GetOutputPort("footstep_plan"), motion.GetInputPort("footstep_plan")
@@ -89,6 +91,7 @@ def build_room_crossing(
             params.motion_planner,
             params.zmp_preview,
             robot,
+            body,
         )
 
     thinking = params.thinking

@@ -14,6 +14,7 @@ from models.robot import RobotModel
 from systems.balance.zmp_preview import GRAVITY, ZmpPreviewParams, rest_state
 from systems.balance.zmp_tracking import generate_varying_height, height_factor
 from systems.planning.footstep_planner import pose_from_xyz_rpy
+from systems.planning.motion_filter import follow_with_whole_body
 from systems.planning.motion_params import MotionPlannerParams
 from systems.planning.step_timing import (
     TimedStep,
@@ -29,6 +30,7 @@ from systems.planning.step_timing import (
 from systems.planning.swing_trajectory import quintic, swing_trajectory
 from systems.planning.thigh_clearance import HighSwing, drawn_inwards, raised_hip
 from systems.planning.toe_off import heading, lift_heel, toe_off_pitch
+from systems.planning.whole_body_plan import WholeBody
 from systems.ports import Vector
 from systems.values import FEET, Footstep, MotionPlan, other_foot
 
@@ -82,6 +84,7 @@ def plan_motion(
     params: MotionPlannerParams,
     preview: ZmpPreviewParams,
     robot: RobotModel,
+    body: WholeBody | None = None,
 ) -> MotionPlan:
     """Plans the motion along footsteps, from standing to standing, beginning at time 0.
 
@@ -93,6 +96,8 @@ def plan_motion(
         params: timing and shape.
         preview: weights of the ZMP tracking and the cart's height.
         robot: its soles and legs.
+        body: the whole robot, whose ZMP then follows the reference (CWTG2); None to
+            plan with a single mass.
 
     Returns:
         The plan.
@@ -106,16 +111,19 @@ def plan_motion(
     rate = np.gradient(height, params.period)
     acceleration = np.gradient(rate, params.period)
     factor = height_factor(height, zmp[:, 2], acceleration)
+    weight = zmp_weight(time, end, params)
     motion = generate_varying_height(
-        zmp[:, :2],
-        factor,
-        preview,
-        rest_state(com[:2]),
-        zmp_weight(time, end, params),
+        zmp[:, :2], factor, preview, rest_state(com[:2]), weight
     )
     zmp[:, :2] = motion.zmp
     path = np.column_stack([motion.com, height])
     poses, contacts, lengths = _feet(time, steps, feet, path, edges, params, robot)
+    waist = _waist(time, steps, poses, end, params)
+    if body is not None and steps:
+        motion = follow_with_whole_body(
+            motion, zmp, height, factor, weight, waist, poses, body, preview
+        )
+        path[:, :2] = motion.com
     return MotionPlan(
         start_time=0.0,
         period=params.period,
@@ -129,7 +137,7 @@ def plan_motion(
         com_acceleration=np.column_stack([motion.acceleration, acceleration]),
         zmp=zmp,
         cart_zmp=motion.com - preview.com_height / GRAVITY * motion.acceleration,
-        waist=_waist(time, steps, poses, end, params),
+        waist=waist,
     )
 
 

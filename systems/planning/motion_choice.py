@@ -21,6 +21,7 @@ from systems.planning.motion_prediction import (
 )
 from systems.planning.quasi_static import Climb, plan_segments, unstable_segment
 from systems.planning.quasi_static_motion import play_segments
+from systems.planning.whole_body_plan import WholeBody
 from systems.ports import Vector
 from systems.values import FEET, Footstep, MotionPlan
 
@@ -53,6 +54,7 @@ def choose_motion(
     preview: ZmpPreviewParams,
     robot: RobotModel,
     predictor: MotionPredictor | None,
+    body: WholeBody | None = None,
 ) -> MotionPlan:
     """The first motion whose prediction keeps within reach, room and torque.
 
@@ -63,6 +65,8 @@ def choose_motion(
         preview: weights of the ZMP tracking and the cart's height.
         robot: its soles and legs.
         predictor: of this robot; None to take the first motion as it is.
+        body: the whole robot, whose ZMP the motion is to keep on its reference; None to
+            plan dynamic motions with a single mass.
 
     Returns:
         The plan. Where none will do it stands, and its `reason` names the quantity
@@ -73,7 +77,7 @@ def choose_motion(
         return _standing(task, params, preview, robot, "")
     dynamic = mode == "dynamic"
     window = choice.torque_window if dynamic else choice.quasi_static_torque_window
-    plans = _dynamic if dynamic else _quasi_static
+    plans = partial(_dynamic, body=body) if dynamic else _quasi_static
     climbs = _climbs(task, params)
     yaw = float(task.footsteps[-1].X_WF.rotation().ToRollPitchYaw().yaw_angle())
     refusals: list[tuple[float, str]] = []
@@ -214,11 +218,12 @@ def _dynamic(
     params: MotionPlannerParams,
     preview: ZmpPreviewParams,
     robot: RobotModel,
+    body: WholeBody | None,
 ) -> Iterator[MotionPlan]:
     for lean, toe_off in product(params.choice.leans, params.choice.toe_offs):
         tried = dataclasses.replace(params, lean=lean, max_toe_off=toe_off)
         yield plan_motion(
-            task.feet, task.com, task.footsteps, task.edges, tried, preview, robot
+            task.feet, task.com, task.footsteps, task.edges, tried, preview, robot, body
         )
 
 

@@ -10,6 +10,7 @@ from systems.planning.motion import plan_motion
 from systems.planning.motion_choice import Mode, MotionTask, choose_motion
 from systems.planning.motion_params import MotionPlannerParams
 from systems.planning.motion_prediction import MotionPredictor
+from systems.planning.whole_body_plan import WholeBody
 from systems.ports import Vector, eval_abstract, eval_vector
 from systems.timing import timed
 from systems.values import FootstepPlan, PlaneSegment, Staircase
@@ -54,6 +55,7 @@ class MotionPlanner(LeafSystem):
         robot: RobotModel,
         mode: Mode = "dynamic",
         predictor: MotionPredictor | None = None,
+        body: WholeBody | None = None,
     ) -> None:
         """Declares the ports.
 
@@ -64,6 +66,8 @@ class MotionPlanner(LeafSystem):
             mode: how the robot is to move.
             predictor: of this robot, by which lean and toe-off are chosen; without one
                 the first that are tried are taken.
+            body: the whole robot, whose ZMP the motions are to keep on its reference;
+                None to plan dynamic motions with a single mass.
 
         Raises:
             ValueError: a parameter is out of range.
@@ -72,7 +76,7 @@ class MotionPlanner(LeafSystem):
         params.validate()
         self._params, self._preview, self._robot = params, preview, robot
         self._mode: Mode = mode
-        self._predictor = predictor
+        self._predictor, self._body = predictor, body
         self._footsteps = self.DeclareAbstractInputPort(
             "footstep_plan", AbstractValue.Make(FootstepPlan())
         )
@@ -117,5 +121,6 @@ class MotionPlanner(LeafSystem):
             self._preview,
             self._robot,
             self._predictor,
+            self._body,
         )
         output.set_value(plan)

@@ -7,6 +7,7 @@ from models.robot import RobotModel
 from systems.balance.zmp_preview import ZmpPreviewParams
 from systems.planning.motion import plan_motion
 from systems.planning.motion_params import MotionPlannerParams
+from systems.planning.whole_body_plan import WholeBody
 from systems.ports import Vector
 from systems.values import Footstep, MotionPlan, other_foot
 
@@ -21,6 +22,7 @@ def stop_early(
     params: MotionPlannerParams,
     preview: ZmpPreviewParams,
     robot: RobotModel,
+    body: WholeBody | None = None,
 ) -> MotionPlan | None:
     """The plan with its footsteps cut off as soon as balance allows.
 
@@ -35,6 +37,7 @@ def stop_early(
         params: timing and shape, as for the plan.
         preview: as for the plan.
         robot: its soles and legs.
+        body: as for the plan.
 
     Returns:
         The shorter plan with the same start time; None where the plan ends as soon.
@@ -59,5 +62,6 @@ def stop_early(
         params,
         preview,
         robot,
+        body,
     )
     return shorter.starting_at(plan.start_time)
