@@ -11,7 +11,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from diagrams.crossing_judge import SAME
-from diagrams.obstacle_crossing import planning_body
 from diagrams.run_data import RunData
 from diagrams.station import robot_alone
 from models.solid_names import is_box
@@ -21,6 +20,7 @@ from systems.planning.crossing_motion import plan_crossing
 from systems.planning.crossing_params import CrossingParams, ways_of_crossing
 from systems.planning.crossing_report import BodyCurves, CrossingMotion
 from systems.planning.feet_adaptor import Repairs
+from systems.planning.whole_body_plan import planning_body
 from systems.ports import Vector
 from systems.values import Foot, Footstep, pose_from_json
 

@@ -2,7 +2,6 @@
 
 import numpy as np
 from pydrake.geometry import Meshcat
-from pydrake.multibody.plant import MultibodyPlant
 from pydrake.systems.framework import DiagramBuilder
 from pydrake.systems.primitives import ConstantVectorSource
 
@@ -12,28 +11,11 @@ from diagrams.task_diagram import TaskDiagram, build_diagram
 from diagrams.walking import add_walking, initial_stand
 from diagrams.walking_signals import VALUE_PERIOD, record_walking
 from diagrams.wiring import add_system
-from models.robot import RobotModel
-from models.robot_loader import body_meshes
 from systems.perception.obstacle_finder import ObstacleFinder
 from systems.planning.crossing_planner import CrossingPlanner
 from systems.planning.executive import Executive
-from systems.planning.leg_model import leg_model, leg_outline
-from systems.planning.whole_body_plan import WholeBody
+from systems.planning.whole_body_plan import planning_body
 from systems.ports import Vector
-
-
-def planning_body(robot: RobotModel, model: MultibodyPlant) -> WholeBody:
-    """The robot that plans are made with: its plant and its legs' lengths and outline.
-
-    Args:
-        robot: its names.
-        model: the plant of the robot alone.
-    """
-    surfaces = {mesh.body: mesh.vertices for mesh in body_meshes(robot)}
-    foot = robot.foot_bodies["left"]
-    knee = model.GetJointByName(robot.leg_joints["left"][3])
-    outline = leg_outline(surfaces[foot], surfaces[knee.child_body().name()])
-    return WholeBody(model, robot, leg_model(model, robot, outline))
 
 
 def build_obstacle_crossing(

@@ -9,7 +9,6 @@ from pydrake.systems.framework import DiagramBuilder
 from pydrake.systems.primitives import ConstantValueSource, ConstantVectorSource
 
 from diagrams.evidence import MOVERS_SIGNAL
-from diagrams.obstacle_crossing import planning_body
 from diagrams.room_perception import add_perception
 from diagrams.scenario import ROBOTS, Scenario
 from diagrams.station import add_station
@@ -22,6 +21,7 @@ from systems.planning.motion_stop import stop_early
 from systems.planning.path_executive import PathExecutive
 from systems.planning.path_footstep_planner import PathFootstepPlanner
 from systems.planning.path_planner import PathPlanner
+from systems.planning.whole_body_plan import planning_body
 from systems.ports import Vector
 from systems.values import MotionPlan, Staircase
 

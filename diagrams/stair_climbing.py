@@ -19,6 +19,7 @@ from systems.planning.executive import Executive
 from systems.planning.footstep_planner import FootstepPlanner
 from systems.planning.motion_planner import MotionPlanner
 from systems.planning.motion_prediction import MotionPredictor
+from systems.planning.whole_body_plan import planning_body
 from systems.ports import Vector
 from systems.tracking.whole_body_ik import WholeBodyIk
 
@@ -85,6 +86,7 @@ def build_stair_climbing(
                 collision_hulls(robot),
                 SelfDistanceMeter(robot),
             ),
+            planning_body(robot, station.model),
         ),
     )
     for planner in (footsteps, motion):

@@ -12,13 +12,13 @@ from pydrake.multibody.plant import MultibodyPlant
 
 from diagrams.crossing_data import CrossingData, Phases, PlannedCrossing
 from diagrams.figure_parts import COLORS, new_figure, set_title
-from diagrams.obstacle_crossing import planning_body
 from diagrams.run_data import RunData
 from diagrams.station import robot_alone
 from systems.obstacle_values import KeyConfiguration, Obstacle, across
 from systems.planning.feet_adaptor import Repairs
 from systems.planning.leg_clearance import Section, outline_gap
 from systems.planning.leg_model import LegOutline
+from systems.planning.whole_body_plan import planning_body
 from systems.ports import Vector
 from systems.values import Foot
 

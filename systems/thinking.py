@@ -22,23 +22,23 @@ class ThinkingParams(Parameters):
     here and, with the machine that it measured on, to `thinking_time.md` beside it.
     """
 
-    segmentation: float = number(0.31, "s", least=0.0)
+    segmentation: float = number(0.33, "s", least=0.0)
     """From a finished sweep to the staircase."""
-    obstacle_finding: float = number(0.26, "s", least=0.0)
+    obstacle_finding: float = number(0.29, "s", least=0.0)
     """From a finished sweep to the obstacles on the floor."""
     room_perception: float = number(0.08, "s", least=0.0)
     """From a frame of the ceiling camera to floor and boxes."""
-    climb_planning: float = number(0.47, "s", least=0.0)
+    climb_planning: float = number(0.48, "s", least=0.0)
     """Footsteps on a staircase and the motion along them."""
-    quasi_static_climb_planning: float = number(1.87, "s", least=0.0)
+    quasi_static_climb_planning: float = number(1.97, "s", least=0.0)
     """The same where the motion is to be quasi-static."""
-    crossing_planning: float = number(0.36, "s", least=0.0)
+    crossing_planning: float = number(0.4, "s", least=0.0)
     """Footsteps over obstacles and the motion along them."""
-    quasi_static_crossing_planning: float = number(0.34, "s", least=0.0)
+    quasi_static_crossing_planning: float = number(0.35, "s", least=0.0)
     """The same where the motion is to be quasi-static."""
-    room_planning: float = number(0.04, "s", least=0.0)
+    room_planning: float = number(0.09, "s", least=0.0)
     """A path through a room, the footsteps along it and their motion."""
-    stopping: float = number(0.03, "s", least=0.0)
+    stopping: float = number(0.06, "s", least=0.0)
     """A motion that ends a walk early."""
 
 

@@ -8,9 +8,16 @@ import numpy as np
 from pydrake.multibody.plant import MultibodyPlant
 
 from models.robot import RobotModel
+from models.robot_loader import body_meshes
 from models.self_distance import SelfDistanceMeter
 from systems.balance.dynamic_filter import multibody_zmp
-from systems.planning.leg_model import LegModel, both_leg_angles, rotations
+from systems.planning.leg_model import (
+    LegModel,
+    both_leg_angles,
+    leg_model,
+    leg_outline,
+    rotations,
+)
 from systems.planning.link_tree import LinkTree, com_in_base, link_tree, momentum
 from systems.ports import Vector
 from systems.values import FEET
@@ -37,6 +44,20 @@ class WholeBody:
         legs = [name for foot in FEET for name in robot.leg_joints[foot]]
         moving = [*legs, *robot.swing_joints]
         return link_tree(self.plant, robot.base_body, moving, robot.posture)
+
+
+def planning_body(robot: RobotModel, model: MultibodyPlant) -> WholeBody:
+    """The robot that plans are made with: its plant and its legs' lengths and outline.
+
+    Args:
+        robot: its names.
+        model: the plant of the robot alone.
+    """
+    surfaces = {mesh.body: mesh.vertices for mesh in body_meshes(robot)}
+    foot = robot.foot_bodies["left"]
+    knee = model.GetJointByName(robot.leg_joints["left"][3])
+    outline = leg_outline(surfaces[foot], surfaces[knee.child_body().name()])
+    return WholeBody(model, robot, leg_model(model, robot, outline))
 
 
 class BodyMotion(NamedTuple):

@@ -16,6 +16,7 @@ from pydrake.math import RigidTransform
 from pydrake.systems.framework import System
 
 from diagrams.scenario import Scenario, load_scenario
+from diagrams.station import robot_alone
 from diagrams.tasks import build_task
 from models.scene import SceneParams
 from models.solids import triangle_mesh, upright_pose
@@ -25,6 +26,7 @@ from systems.perception.staircase_merging import merge_staircase
 from systems.planning.motion_choice import Mode
 from systems.planning.motion_stop import stop_early
 from systems.planning.path_executive import blocking_box
+from systems.planning.whole_body_plan import WholeBody, planning_body
 from systems.ports import Vector
 from systems.room_values import DepthImage, Environment
 from systems.sensing.depth_camera import measure_depth
@@ -231,6 +233,8 @@ def _walk(robot: Robot, watch: Stopwatch, kind: str) -> bool:
 def rooms(watch: Stopwatch, count: int) -> None:
     """Rooms with 6 to 10 boxes, seen, crossed, and stopped in at four times."""
     robot = Robot(load_scenario("room"))
+    model = robot.scenario.robot.model()
+    body = planning_body(model, robot_alone(model))
     camera = robot.scenario.sensors.camera
     rays = pixel_rays(camera.rows, camera.columns, camera.focal_length)
     for seed in range(count):
@@ -258,11 +262,17 @@ def rooms(watch: Stopwatch, count: int) -> None:
 
         motion = watch.time("room_planning", plan)
         for share in (0.1, 0.3, 0.5, 0.7):
-            watch.time("stopping", partial(_stop, robot, environment, motion, share))
+            watch.time(
+                "stopping", partial(_stop, robot, body, environment, motion, share)
+            )
 
 
 def _stop(
-    robot: Robot, environment: Environment, motion: MotionPlan, share: float
+    robot: Robot,
+    body: WholeBody,
+    environment: Environment,
+    motion: MotionPlan,
+    share: float,
 ) -> MotionPlan | None:
     """What is thought on the way, after a share of the walk."""
     model, parameters = robot.scenario.robot.model(), robot.scenario.parameters
@@ -275,6 +285,7 @@ def _stop(
         parameters.motion_planner,
         parameters.zmp_preview,
         model,
+        body,
     )
 
 

@@ -5,11 +5,11 @@ import pytest
 from matplotlib.patches import Polygon, Rectangle
 
 from diagrams.crossing_data import read_crossings
-from diagrams.obstacle_crossing import planning_body
 from diagrams.run_data import read_run_data
 from diagrams.station import robot_alone
 from diagrams.stick_diagram import STICKS, leg_sticks, stick_diagram
 from models.jvrc1 import JVRC1
+from systems.planning.whole_body_plan import planning_body
 
 
 @pytest.fixture(scope="module")

@@ -14,7 +14,6 @@ from pathlib import Path
 import numpy as np
 from pydrake.math import RigidTransform
 
-from diagrams.obstacle_crossing import planning_body
 from diagrams.station import robot_alone
 from models.jvrc1 import JVRC1
 from systems.balance.zmp_preview import ZmpPreviewParams
@@ -25,7 +24,7 @@ from systems.planning.crossing_report import CrossingReport
 from systems.planning.feasibility_unit import feasibility_unit
 from systems.planning.leg_clearance import Section
 from systems.planning.motion_params import MotionPlannerParams
-from systems.planning.whole_body_plan import WholeBody
+from systems.planning.whole_body_plan import WholeBody, planning_body
 from systems.values import FEET, Footstep
 
 WAIST = 0.79

@@ -21,7 +21,6 @@ from pydrake.multibody.tree import ModelInstanceIndex
 from pydrake.systems.framework import LeafSystem
 
 import systems
-from diagrams.obstacle_crossing import planning_body
 from models.jvrc1 import JVRC1
 from models.robot_loader import add_robot
 from models.solids import triangle_mesh
@@ -52,6 +51,7 @@ from systems.planning.motion_player import MotionPlayer
 from systems.planning.path_executive import PathExecutive, PathExecutiveParams
 from systems.planning.path_footstep_planner import PathFootstepPlanner
 from systems.planning.path_planner import PathPlanner
+from systems.planning.whole_body_plan import planning_body
 from systems.sensing.contact_monitor import ContactMonitor
 from systems.sensing.depth_camera import DepthCamera, DepthCameraParams
 from systems.sensing.foot_wrench_sensor import FootWrenchSensor

@@ -6,7 +6,6 @@ import numpy as np
 from pydrake.math import RigidTransform
 from pydrake.systems.framework import Context
 
-from diagrams.obstacle_crossing import planning_body
 from diagrams.station import robot_alone
 from models.jvrc1 import JVRC1
 from systems.balance.zmp_preview import ZmpPreviewParams
@@ -19,7 +18,7 @@ from systems.planning.leg_clearance import Section
 from systems.planning.motion_params import MotionPlannerParams
 from systems.planning.quasi_static_check import balance_of
 from systems.planning.quasi_static_unit import quasi_static_unit
-from systems.planning.whole_body_plan import WholeBody
+from systems.planning.whole_body_plan import WholeBody, planning_body
 from systems.ports import Vector
 from systems.values import Foot, Footstep
 
