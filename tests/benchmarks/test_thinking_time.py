@@ -26,7 +26,7 @@ def test_defaults_are_set_where_they_are_declared() -> None:
     """Nothing else changes; a thought without a field is an error."""
     source = Path(thinking.__file__).read_text()
     changed = set_defaults(source, {"stopping": {"default": 7.25}})
-    assert "    stopping: float = 7.25\n" in changed
+    assert '    stopping: float = number(7.25, "s", least=0.0)\n' in changed
     lines = zip(source.splitlines(), changed.splitlines(), strict=True)
     assert sum(before != after for before, after in lines) == 1
     with pytest.raises(ValueError, match=r"^dreaming: found 0 times"):
