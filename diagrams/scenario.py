@@ -154,7 +154,7 @@ class SimulationParams(Parameters):
     """Step of the plant, s."""
     contact_model: str = choice("hydroelastic", CONTACT_MODELS)
     """How soles meet the ground: "hydroelastic" (rubber that carries wherever something
-    is under it), or "point" (six small spheres)."""
+    is under it), or "point" (six small spheres and a plate above them)."""
     contact_approximation: str = choice("lagged", APPROXIMATIONS)
     """How Drake solves contact: "lagged", "similar" or "sap"."""
     max_time: float = number(120.0, "s", above=0.0)

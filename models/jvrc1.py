@@ -79,8 +79,8 @@ JVRC1 = RobotModel(
     lidar_position=(0.15, 0.0, 0.12),
     standing_com=(0.035, 0.85),
     hip_from_com=(-0.03, -0.04),
-    # Between the wings of the pelvis its hull is up to 24 mm outside its surface, just
-    # where a thigh comes up; six pieces are within a millimetre of it there.
+    # A thigh that is folded by 90 degrees is 8 mm from the surface of the pelvis, but
+    # 15 mm inside its hull; six pieces are within a millimetre of the surface there.
     convex_pieces={"PELVIS_S": 6},
     leg_reach=0.725,
 )

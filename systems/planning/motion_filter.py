@@ -2,7 +2,8 @@
 
 A plan's CoM is that of a single mass. Legs that swing fast move the ZMP of the whole
 body by centimetres; the dynamic filter (`systems.balance.dynamic_filter`, obstacle
-paper, Eqs. 19 and 20) takes that back.
+paper, Eqs. 19 and 20) takes that back: the CoM motion of p_ref - p_MB, p_MB being the
+ZMP of the whole body, is added to the plan's.
 """
 
 import numpy as np
