@@ -11,15 +11,15 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from diagrams.interruption import StopSignals
+from footfall.diagrams.interruption import StopSignals
 
 # What simulates takes seconds to import; every command imports what it needs, so that
 # the help text comes at once.
 if TYPE_CHECKING:
     from pydrake.geometry import Meshcat
 
-    from diagrams.scenario import Scenario
-    from systems.ports import Vector
+    from footfall.diagrams.scenario import Scenario
+    from footfall.models.values.vector import Vector
 
 SLOPE = 15.0
 """Of the planes that `segment` keeps, deg; what `PlaneSegmenterParams` has."""
@@ -92,7 +92,7 @@ def options(
 @app.command("list")
 def list_command() -> None:
     """List the shipped scenarios, a line each."""
-    from diagrams.shipped import list_scenarios
+    from footfall.diagrams.shipped import list_scenarios
 
     scenarios = list_scenarios()
     width = max(len(name) for name, _ in scenarios)
@@ -136,8 +136,8 @@ def run(
     signals go to disk while it runs: what is killed has all but its last second.
     """
     with _bad_input_in_one_line():
-        from diagrams.run_command import run_scenario
-        from diagrams.tasks import build_task
+        from footfall.diagrams.closed_loop.tasks import build_task
+        from footfall.diagrams.run_command import run_scenario
 
         _quiet_drake()
         changes = list(overrides or [])
@@ -182,8 +182,10 @@ def segment(
 ) -> None:
     """Find planes and stairs in a point cloud: JSON, a picture, times."""
     with _bad_input_in_one_line():
-        from diagrams.segmenting import segment_file
-        from systems.perception.segmenter_params import PlaneSegmenterParams
+        from footfall.diagrams.segmenting import segment_file
+        from footfall.systems.perception.planes.segmenter_params import (
+            PlaneSegmenterParams,
+        )
 
         direction = _parse_direction(gravity)
         params = PlaneSegmenterParams(slope_tolerance=_parse_slope(slope))
@@ -205,7 +207,7 @@ def segment(
 def plot(run_folder: RunArgument) -> None:
     """Draw the figures of a run into its folder `figures`."""
     with _bad_input_in_one_line():
-        from diagrams.report import plot_run
+        from footfall.diagrams.figures.report import plot_run
 
         for path in plot_run(run_folder):
             typer.echo(path)
@@ -215,7 +217,7 @@ def plot(run_folder: RunArgument) -> None:
 def replay(run_folder: RunArgument) -> None:
     """Write a run as a page that opens without a server."""
     with _bad_input_in_one_line():
-        from diagrams.replay import replay_run
+        from footfall.diagrams.figures.replay import replay_run
 
         _quiet_drake()
         typer.echo(replay_run(run_folder))
@@ -250,7 +252,7 @@ def render(
 ) -> None:
     """Render a run as a film strip, headless, into its folder `figures`."""
     with _bad_input_in_one_line():
-        from diagrams.film_strip import render_run
+        from footfall.diagrams.figures.film_strip import render_run
 
         _quiet_drake()
         typer.echo(render_run(run_folder, frames, start, end))
@@ -271,8 +273,8 @@ def diagram(
 ) -> None:
     """Draw the block diagram of a scenario as SVG."""
     with _bad_input_in_one_line():
-        from diagrams.block_diagram import block_diagram_svg
-        from diagrams.tasks import build_task
+        from footfall.diagrams.closed_loop.tasks import build_task
+        from footfall.diagrams.figures.block_diagram import block_diagram_svg
 
         _quiet_drake()
         chosen = _load(scenario, overrides, None)
@@ -292,7 +294,7 @@ def main() -> None:
 
 
 def _load(name: str, overrides: list[str] | None, seed: int | None) -> "Scenario":
-    from diagrams.scenario import load_scenario
+    from footfall.diagrams.scenario import load_scenario
 
     changes = list(overrides or [])
     if seed is not None:
@@ -301,7 +303,7 @@ def _load(name: str, overrides: list[str] | None, seed: int | None) -> "Scenario
 
 
 def _start_meshcat(host: str) -> "Meshcat":
-    from diagrams.live_view import meshcat_at
+    from footfall.diagrams.figures.live_view import meshcat_at
 
     try:
         return meshcat_at(host)
@@ -340,7 +342,7 @@ def _quiet_drake() -> None:
 @contextmanager
 def _run_ends_in_one_line(stop: StopSignals) -> Iterator[None]:
     """What a signal or a full disk ends says so, and exits with the status of that."""
-    from diagrams.run_folder import RecordingError
+    from footfall.diagrams.run_folder import RecordingError
 
     try:
         yield
@@ -375,11 +377,11 @@ def _message(error: Exception) -> str:
 def _bad_input_errors() -> tuple[type[Exception], ...]:
     """Those of what was imported; what was not has raised nothing."""
     homes = (
-        ("diagrams.run_folder", "OutError"),
-        ("diagrams.scenario", "ScenarioError"),
-        ("diagrams.signals", "RunError"),
-        ("systems.perception.cloud_files", "CloudFileError"),
-        ("systems.perception.environment_xml", "EnvironmentFileError"),
+        ("footfall.diagrams.run_folder", "OutError"),
+        ("footfall.diagrams.scenario", "ScenarioError"),
+        ("footfall.diagrams.signals", "RunError"),
+        ("footfall.systems.perception.clouds.cloud_files", "CloudFileError"),
+        ("footfall.systems.perception.room.environment_xml", "EnvironmentFileError"),
     )
     own = [
         getattr(sys.modules[home], name) for home, name in homes if home in sys.modules

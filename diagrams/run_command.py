@@ -8,14 +8,14 @@ from pydrake.geometry import Meshcat
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
-from diagrams.illustrations import illustrate
-from diagrams.interruption import StopSignals
-from diagrams.run_folder import make_numbered, require_usable, run_name
-from diagrams.scenario import Scenario
-from diagrams.simulation import run_task
-from diagrams.summary import Summary
-from diagrams.summary_table import print_summary
-from diagrams.task_diagram import TaskDiagram
+from footfall.diagrams.closed_loop.task_diagram import TaskDiagram
+from footfall.diagrams.figures.illustrations import illustrate
+from footfall.diagrams.interruption import StopSignals
+from footfall.diagrams.judge.summary import Summary
+from footfall.diagrams.judge.summary_table import print_summary
+from footfall.diagrams.run_folder import make_numbered, require_usable, run_name
+from footfall.diagrams.scenario import Scenario
+from footfall.diagrams.simulation import run_task
 
 RUNS_FOLDER = Path("runs")
 """Where runs go by default."""

@@ -9,19 +9,14 @@ import pandas as pd
 from pydrake.multibody.plant import AddMultibodyPlantSceneGraph
 from pydrake.systems.framework import DiagramBuilder
 
-from diagrams.evidence import (
-    MOVERS_SIGNAL,
-    STATE_SIGNAL,
-    Limits,
-    joint_velocities,
-    robot_limits,
-)
-from diagrams.signals import Run, RunError, load_run
-from diagrams.true_motion import TrueMotion, true_motion
-from models.robot_loader import add_robot
-from models.staircase import Tread
-from systems.ports import Vector
-from systems.values import Foot
+from footfall.diagrams.judge.evidence import Limits, joint_velocities, robot_limits
+from footfall.diagrams.judge.true_motion import TrueMotion, true_motion
+from footfall.diagrams.signal_names import MOVERS_SIGNAL, STATE_SIGNAL
+from footfall.diagrams.signals import Run, RunError, load_run
+from footfall.models.robots.robot_loader import add_robot
+from footfall.models.scenes.staircase import Tread
+from footfall.models.values.feet import Foot
+from footfall.models.values.vector import Vector
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 
-from diagrams.scenario import Scenario, save_scenario
-from diagrams.signal_files import whole_file
-from diagrams.signals import SCENARIO_FILE, SIGNALS_FOLDER
+from footfall.diagrams.scenario import Scenario, save_scenario
+from footfall.diagrams.signal_files import whole_file
+from footfall.diagrams.signals import SCENARIO_FILE, SIGNALS_FOLDER
 
 CHANGES_LENGTH = 60
 """How much of a folder's name the changes to a scenario may take, characters."""

@@ -10,7 +10,7 @@ import numpy as np
 import yaml
 from pydrake.common.yaml import yaml_dump, yaml_load_typed
 
-from diagrams.schema import (
+from footfall.diagrams.schema import (
     FieldError,
     Mapping,
     check,
@@ -19,36 +19,42 @@ from diagrams.schema import (
     set_field,
     validate,
 )
-from diagrams.shipped import shipped_scenarios
-from diagrams.task_params import TaskParams
-from models.contact_geometry import CONTACT_MODELS
-from models.jvrc1 import JVRC1
-from models.robot import RobotModel
-from models.room_obstacles import place_boxes
-from models.scene import SceneParams
-from models.solids import upright_pose
-from models.staircase import StaircaseParams
-from models.validation import LARGEST_SEED, Parameters, choice, number, share
-from systems.balance.landing_adaptor import LandingParams
-from systems.balance.stabilizer import StabilizerParams
-from systems.balance.zmp_preview import ZmpPreviewParams
-from systems.perception.boxes import ObstacleClustererParams
-from systems.perception.depth_cloud import DepthCloudParams
-from systems.perception.floor import FloorParams
-from systems.perception.obstacles import ObstacleFinderParams
-from systems.perception.scan_assembler import ScanAssemblerParams
-from systems.perception.segmenter_params import PlaneSegmenterParams
-from systems.perception.staircase_merging import StaircaseMapParams
-from systems.planning.crossing_params import CrossingParams
-from systems.planning.executive import ExecutiveParams
-from systems.planning.footstep_params import FootstepPlannerParams
-from systems.planning.motion_params import MotionPlannerParams
-from systems.planning.path_executive import PathExecutiveParams
-from systems.planning.path_params import PathPlannerParams
-from systems.sensing.depth_camera import DepthCameraParams
-from systems.sensing.tilting_lidar import TiltingLidarParams
-from systems.thinking import ThinkingParams
-from systems.tracking.whole_body_ik import IkParams
+from footfall.diagrams.shipped import shipped_scenarios
+from footfall.diagrams.task_params import TaskParams
+from footfall.models.robots.contact_geometry import CONTACT_MODELS
+from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.robots.robot import RobotModel
+from footfall.models.scenes.room_obstacles import place_boxes
+from footfall.models.scenes.scene import SceneParams
+from footfall.models.scenes.solids import upright_pose
+from footfall.models.scenes.staircase import StaircaseParams
+from footfall.models.values.validation import (
+    LARGEST_SEED,
+    Parameters,
+    choice,
+    number,
+    share,
+)
+from footfall.systems.balance.landing_adaptor import LandingParams
+from footfall.systems.balance.stabilizer import StabilizerParams
+from footfall.systems.balance.zmp_preview import ZmpPreviewParams
+from footfall.systems.perception.depth_cloud import DepthCloudParams
+from footfall.systems.perception.obstacles.boxes import ObstacleClustererParams
+from footfall.systems.perception.obstacles.obstacles import ObstacleFinderParams
+from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterParams
+from footfall.systems.perception.planes.staircase_merging import StaircaseMapParams
+from footfall.systems.perception.room.floor import FloorParams
+from footfall.systems.perception.scan_assembler import ScanAssemblerParams
+from footfall.systems.planning.crossing.params import CrossingParams
+from footfall.systems.planning.executive.executive import ExecutiveParams
+from footfall.systems.planning.executive.path_executive import PathExecutiveParams
+from footfall.systems.planning.footsteps.footstep_params import FootstepPlannerParams
+from footfall.systems.planning.motion.motion_params import MotionPlannerParams
+from footfall.systems.planning.path.path_params import PathPlannerParams
+from footfall.systems.sensing.depth_camera import DepthCameraParams
+from footfall.systems.sensing.tilting_lidar import TiltingLidarParams
+from footfall.systems.thinking import ThinkingParams
+from footfall.systems.tracking.whole_body_ik import IkParams
 
 ROBOTS: dict[str, RobotModel] = {"jvrc1": JVRC1}
 """The robots that a scenario may name."""

@@ -14,7 +14,7 @@ from typing import Any, TypeAlias
 
 import yaml
 
-from models.validation import SHARED, Parameters
+from footfall.models.values.validation import SHARED, Parameters
 
 Mapping: TypeAlias = dict[str, Any]
 """A mapping as parsed YAML has it; its values are checked against the schema."""

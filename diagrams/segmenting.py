@@ -11,15 +11,16 @@ from time import perf_counter
 import numpy as np
 from matplotlib.figure import Figure
 
-from models.jvrc1 import JVRC1
-from models.robot import Sole
-from systems.perception.cloud_doubts import describe_cloud, doubt_cloud
-from systems.perception.cloud_files import read_cloud
-from systems.perception.normals import gravity_aligned_rotation
-from systems.perception.plane_segmentation import segment_planes
-from systems.perception.segmenter_params import PlaneSegmenterParams
-from systems.ports import Vector
-from systems.values import PlaneSegment, PlaneSegmentation, to_json
+from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.robots.robot import Sole
+from footfall.models.values.perceived import PlaneSegment, PlaneSegmentation
+from footfall.models.values.value import to_json
+from footfall.models.values.vector import Vector
+from footfall.systems.perception.clouds.cloud_files import read_cloud
+from footfall.systems.perception.planes.cloud_doubts import describe_cloud, doubt_cloud
+from footfall.systems.perception.planes.normals import gravity_aligned_rotation
+from footfall.systems.perception.planes.plane_segmentation import segment_planes
+from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterParams
 
 DRAWN_POINTS = 60_000
 """More points would not change the picture, only slow it."""

@@ -2,7 +2,7 @@
 
 from importlib import resources
 
-from diagrams.schema import parse_yaml
+from footfall.diagrams.schema import parse_yaml
 
 
 def list_scenarios() -> tuple[tuple[str, str], ...]:
@@ -15,7 +15,7 @@ def list_scenarios() -> tuple[tuple[str, str], ...]:
 
 def shipped_scenarios() -> dict[str, str]:
     """YAML text of every shipped scenario by name."""
-    folder = resources.files("diagrams.scenarios")
+    folder = resources.files("footfall.diagrams.scenarios")
     return {
         item.name.removesuffix(".yaml"): item.read_text(encoding="utf-8")
         for item in folder.iterdir()

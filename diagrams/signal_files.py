@@ -17,9 +17,9 @@ import pandas as pd
 import pyarrow as pa  # type: ignore[import-untyped]
 import pyarrow.parquet as pq  # type: ignore[import-untyped]
 
-from systems.ports import Vector
-from systems.value_log_sink import LoggedValue
-from systems.values import Json, to_json
+from footfall.models.values.value import Json, to_json
+from footfall.models.values.vector import Vector
+from footfall.systems.value_log_sink import LoggedValue
 
 STREAM, PARQUET, LINES = ".arrows", ".parquet", ".jsonl"
 """What the files' names end with."""

@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 from pydrake.systems.framework import Context, DiagramBuilder, OutputPort
 
-from diagrams.signal_files import (
+from footfall.diagrams.signal_files import (
     LINES,
     STREAM,
     SignalFrames,
@@ -21,9 +21,9 @@ from diagrams.signal_files import (
     stream_batch,
     stream_start,
 )
-from systems.ports import Vector
-from systems.signal_log import SignalLog
-from systems.value_log_sink import LoggedValue, ValueLogSink
+from footfall.models.values.vector import Vector
+from footfall.systems.signal_log import SignalLog
+from footfall.systems.value_log_sink import LoggedValue, ValueLogSink
 
 _NAME = re.compile(r"[A-Za-z0-9_-]+\.[A-Za-z0-9_-]+")
 
@@ -111,7 +111,8 @@ class SignalRecorder:
 
         Args:
             name: "SYSTEM.PORT".
-            port: the port; its values need a JSON form (`systems.values.to_json`).
+            port: the port; its values need a JSON form
+                (`footfall.models.values.value.to_json`).
             period: time between two looks, s.
             keep: whether `logged_values` has all of them even while they are streamed;
                 False for what changes all the time and is only read from the file.

@@ -12,10 +12,10 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from diagrams.scenario import Scenario, load_scenario
-from diagrams.signal_files import LINES, RunError, SignalFrames, parse_json
-from diagrams.signal_recorder import SignalRecorder
-from systems.values import Json
+from footfall.diagrams.scenario import Scenario, load_scenario
+from footfall.diagrams.signal_files import LINES, RunError, SignalFrames, parse_json
+from footfall.diagrams.signal_recorder import SignalRecorder
+from footfall.models.values.value import Json
 
 __all__ = [
     "SCENARIO_FILE",

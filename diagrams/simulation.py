@@ -11,30 +11,30 @@ from typing import TypeAlias
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import Context
 
-from diagrams.crossing_judge import eyes_summary
-from diagrams.evidence import Evidence, Stop, gather
-from diagrams.outcome import Judgement, Outcome, judge
-from diagrams.room_summary import room_perception, stage_ms
-from diagrams.run_folder import RecordingError, begin_run
-from diagrams.scenario import Scenario
-from diagrams.signal_files import whole_file
-from diagrams.signal_recorder import SignalStream
-from diagrams.signals import SIGNALS_FOLDER, SUMMARY_FILE
-from diagrams.summary import (
+from footfall.diagrams.closed_loop.task_diagram import TaskDiagram
+from footfall.diagrams.judge.crossing_judge import eyes_summary
+from footfall.diagrams.judge.evidence import Evidence, Stop, gather
+from footfall.diagrams.judge.outcome import Judgement, Outcome, judge
+from footfall.diagrams.judge.room_summary import room_perception, stage_ms
+from footfall.diagrams.judge.summary import (
     Summary,
     installed_versions,
     perception_summary,
     timing_us,
 )
-from diagrams.task_diagram import TaskDiagram
-from diagrams.watch import (
+from footfall.diagrams.judge.watch import (
     LIE_TIME,
     LOOK,
     WATCHED_REST,
     HoldClock,
     RobotWatch,
 )
-from systems.values import Json
+from footfall.diagrams.run_folder import RecordingError, begin_run
+from footfall.diagrams.scenario import Scenario
+from footfall.diagrams.signal_files import whole_file
+from footfall.diagrams.signal_recorder import SignalStream
+from footfall.diagrams.signals import SIGNALS_FOLDER, SUMMARY_FILE
+from footfall.models.values.value import Json
 
 REST_WATCH = 5.0
 """For how long a robot that has finished is given to come to rest, s."""

@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass, field
 
-from models.jvrc1 import JVRC1
-from models.validation import LARGEST, Parameters, choice, number
+from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.values.validation import LARGEST, Parameters, choice, number
 
 TASKS = ("stair_climbing", "room_crossing", "obstacle_crossing")
 """What a robot may be asked to do."""
@@ -52,8 +52,8 @@ class TaskParams(Parameters):
     yaw, m and rad; not in "stair_climbing"."""
     environment: str | None = None
     """An XML file of the floor and the boxes that is used in place of the camera, its
-    path from the working folder (schema: systems.perception.environment_xml);
-    "room_crossing" only."""
+    path from the working folder; "room_crossing" only. Its schema:
+    footfall.systems.perception.room.environment_xml."""
     pushes: list[PushParams] = field(default_factory=list)
     """Pushes on the way."""
 

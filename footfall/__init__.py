@@ -1,4 +1,5 @@
-"""The command `footfall` as a module: `python -m footfall`.
+"""Drake systems with which a humanoid sees stairs and clutter, and walks them.
 
-The library itself is in the packages `diagrams`, `systems` and `models`.
+The subpackages `models`, `systems` and `diagrams` are folders of the repository's top
+level, linked to from here; `python -m footfall` is the command line.
 """

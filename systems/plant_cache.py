@@ -14,8 +14,8 @@ from pydrake.systems.framework import (
     ValueProducer,
 )
 
-from systems.callbacks import weakly_bound
-from systems.ports import eval_vector
+from footfall.systems.callbacks import weakly_bound
+from footfall.systems.ports import eval_vector
 
 
 class _Scratch:

@@ -1,13 +1,11 @@
 """Typed access to ports: the one place that knows pydrake's untyped edges."""
 
-from typing import Any, TypeAlias, TypeVar
+from typing import TypeVar
 
 import numpy as np
 from pydrake.systems.framework import BasicVector, Context, InputPort, OutputPort
 
-Vector: TypeAlias = np.ndarray[Any, np.dtype[np.float64]]
-"""An array of floats of any shape. The shape parameter is open because pydrake's stubs
-put the element type there, so that an NDArray would never match them."""
+from footfall.models.values.vector import Vector
 
 T = TypeVar("T")
 

@@ -10,8 +10,9 @@ from pydrake.systems.framework import (
     ValueProducer,
 )
 
-from systems.ports import Vector, eval_vector
-from systems.timing import timed
+from footfall.models.values.vector import Vector
+from footfall.systems.ports import eval_vector
+from footfall.systems.timing import timed
 
 
 class SignalLog(LeafSystem):

@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 from math import ceil
 from typing import Self
 
-from models.validation import Parameters, number
-from systems.values import Value
+from footfall.models.values.validation import Parameters, number
+from footfall.models.values.value import Value
 
 ROUNDING = 1e-6
 """Times that differ by less are the same, s."""

@@ -9,7 +9,7 @@ from typing import ParamSpec, TypeVar
 import numpy as np
 from pydrake.systems.framework import System
 
-from systems.callbacks import weakly_bound
+from footfall.systems.callbacks import weakly_bound
 
 P = ParamSpec("P")
 R = TypeVar("R")

@@ -10,7 +10,7 @@ from pydrake.systems.framework import (
     ValueProducer,
 )
 
-from systems.timing import timed
+from footfall.systems.timing import timed
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,8 @@ class ValueLogSink(LeafSystem):
 
     A value that is the last one (the same object, or equal to it) is not kept again.
     Like Drake's `VectorLogSink`, the log lies in the context, in memory. The values
-    are kept, not copied, so they must be immutable, as those of `systems.values` are.
+    are kept, not copied, so they must be immutable, as those of
+    `footfall.models.values` are.
 
     .. pydrake_system::
 

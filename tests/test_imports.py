@@ -13,11 +13,24 @@ SLOW = ("open3d", "dash", "plotly", "scipy.stats")
 @pytest.mark.parametrize(
     ("modules", "unused"),
     [
-        ("diagrams.cli, diagrams.shipped", ("pydrake", "numpy", "scipy", *SLOW)),
-        ("diagrams.segmenting", ("pandas", "pyarrow", "trimesh", "ompl", *SLOW)),
-        ("diagrams.scenario", ("pandas", "matplotlib", *SLOW)),
-        ("diagrams.report, diagrams.replay, diagrams.film_strip", SLOW),
-        ("diagrams.tasks, diagrams.simulation", ("matplotlib", *SLOW)),
+        (
+            "footfall.diagrams.cli, footfall.diagrams.shipped",
+            ("pydrake", "numpy", "scipy", *SLOW),
+        ),
+        (
+            "footfall.diagrams.segmenting",
+            ("pandas", "pyarrow", "trimesh", "ompl", *SLOW),
+        ),
+        ("footfall.diagrams.scenario", ("pandas", "matplotlib", *SLOW)),
+        (
+            "footfall.diagrams.figures.report, footfall.diagrams.figures.replay, "
+            "footfall.diagrams.figures.film_strip",
+            SLOW,
+        ),
+        (
+            "footfall.diagrams.closed_loop.tasks, footfall.diagrams.simulation",
+            ("matplotlib", *SLOW),
+        ),
     ],
 )
 def test_modules_import_only_what_they_use(

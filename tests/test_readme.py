@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from diagrams.block_diagram import topology
-from diagrams.scenario import load_scenario
-from diagrams.shipped import list_scenarios
-from diagrams.summary import Summary
-from diagrams.tasks import build_task
+from footfall.diagrams.closed_loop.tasks import build_task
+from footfall.diagrams.figures.block_diagram import topology
+from footfall.diagrams.judge.summary import Summary
+from footfall.diagrams.scenario import load_scenario
+from footfall.diagrams.shipped import list_scenarios
 
 README = Path(__file__).resolve().parents[1] / "README.md"
 TEXT = README.read_text(encoding="utf-8")

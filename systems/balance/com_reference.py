@@ -3,8 +3,8 @@
 import numpy as np
 from pydrake.systems.framework import BasicVector, Context, LeafSystem
 
-from systems.ports import eval_vector, set_vector
-from systems.timing import timed
+from footfall.systems.ports import eval_vector, set_vector
+from footfall.systems.timing import timed
 
 
 class ComReference(LeafSystem):

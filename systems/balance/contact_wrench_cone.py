@@ -14,8 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from pydrake.math import RigidTransform
 
-from systems.ports import Vector
-from systems.values import Value
+from footfall.models.values.value import Value
+from footfall.models.values.vector import Vector
 
 _SIGNS = np.array([[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]])
 

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from systems.ports import Vector
+from footfall.models.values.vector import Vector
 
 _TOUCH = 1e-12
 """How far outside a half plane counts as on its edge, m."""

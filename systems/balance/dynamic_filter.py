@@ -9,15 +9,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from systems.balance.zmp_preview import (
+from footfall.models.values.vector import Vector
+from footfall.systems.balance.zmp_preview import (
     GRAVITY,
     ComMotion,
     PreviewGains,
     ZmpPreviewParams,
     generate,
 )
-from systems.balance.zmp_tracking import generate_varying_height
-from systems.ports import Vector
+from footfall.systems.balance.zmp_tracking import generate_varying_height
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,7 +115,7 @@ def filter_motion_varying_height(
     params: ZmpPreviewParams,
     weight: Vector | None = None,
 ) -> ComMotion:
-    """The same second stage on `systems.balance.zmp_tracking`, exact on stairs.
+    """The second stage on `footfall.systems.balance.zmp_tracking`, exact on stairs.
 
     It knows the whole future and needs no more rest than the first stage did.
 

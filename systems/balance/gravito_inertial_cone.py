@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import cdd
 import numpy as np
 
-from systems.balance.contact_wrench_cone import Contact, stance_generators
-from systems.ports import Vector
+from footfall.models.values.vector import Vector
+from footfall.systems.balance.contact_wrench_cone import Contact, stance_generators
 
 _RANK = 1e-9
 """Directions in which the unit generators reach less than this do not count."""

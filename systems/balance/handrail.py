@@ -3,8 +3,8 @@
 import numpy as np
 from pydrake.math import RigidTransform, RotationMatrix
 
-from systems.balance.contact_wrench_cone import Contact
-from systems.ports import Vector
+from footfall.models.values.vector import Vector
+from footfall.systems.balance.contact_wrench_cone import Contact
 
 
 def hand_contact(

@@ -11,9 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 from pydrake.systems.framework import BasicVector, Context, DiscreteValues, LeafSystem
 
-from models.validation import Parameters, number
-from systems.ports import Vector, eval_vector, set_vector
-from systems.timing import timed
+from footfall.models.values.validation import Parameters, number
+from footfall.models.values.vector import Vector
+from footfall.systems.ports import eval_vector, set_vector
+from footfall.systems.timing import timed
 
 _ROLL, _PITCH = 3, 4
 

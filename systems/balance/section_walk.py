@@ -13,8 +13,8 @@ import math
 import numpy as np
 from scipy.optimize import nnls
 
-from systems.balance.wrench_slice import WrenchSlice
-from systems.ports import Vector
+from footfall.models.values.vector import Vector
+from footfall.systems.balance.wrench_slice import WrenchSlice
 
 _JITTER = 1e-9
 """Every generator pushes by about this much more, in weights, during the walk: corners

@@ -3,9 +3,9 @@
 import numpy as np
 from pydrake.math import RigidTransform, RollPitchYaw, RotationMatrix
 
-from models.robot import Sole
-from systems.balance.contact_wrench_cone import Contact, sole_contact
-from systems.ports import Vector
+from footfall.models.robots.robot import Sole
+from footfall.models.values.vector import Vector
+from footfall.systems.balance.contact_wrench_cone import Contact, sole_contact
 
 LIFTED = 1e-6
 """A sole that carries on this much less than its length has its heel lifted, m."""

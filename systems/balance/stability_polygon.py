@@ -17,24 +17,24 @@ from typing import Literal, TypeAlias
 import numpy as np
 from scipy.optimize import nnls
 
-from systems.balance.contact_wrench_cone import Contact
-from systems.balance.convex_polygon import clip_square
-from systems.balance.gravito_inertial_cone import (
+from footfall.models.values.value import Value
+from footfall.models.values.vector import Vector
+from footfall.systems.balance.contact_wrench_cone import Contact
+from footfall.systems.balance.convex_polygon import clip_square
+from footfall.systems.balance.gravito_inertial_cone import (
     centred_generators,
     cone_of_generators,
     proven_rows,
     span,
 )
-from systems.balance.section_walk import section_rows
-from systems.balance.stability_projection import LinearProgrammeError, project
-from systems.balance.wrench_slice import (
+from footfall.systems.balance.section_walk import section_rows
+from footfall.systems.balance.stability_projection import LinearProgrammeError, project
+from footfall.systems.balance.wrench_slice import (
     WrenchSlice,
     accelerated_slice,
     static_slice,
     zmp_slice,
 )
-from systems.ports import Vector
-from systems.values import Value
 
 Status: TypeAlias = Literal[
     "ok", "degenerate", "unbounded", "infeasible", "no_contact", "solver_failed"

@@ -11,9 +11,9 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.optimize import linprog
 
-from systems.balance.convex_polygon import simplified
-from systems.balance.wrench_slice import WrenchSlice
-from systems.ports import Vector
+from footfall.models.values.vector import Vector
+from footfall.systems.balance.convex_polygon import simplified
+from footfall.systems.balance.wrench_slice import WrenchSlice
 
 _EXPANSION = 1e-8
 """An edge is final when no point lies further outside it, m."""

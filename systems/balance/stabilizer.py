@@ -5,16 +5,17 @@ from dataclasses import dataclass, field
 import numpy as np
 from pydrake.systems.framework import BasicVector, Context, LeafSystem
 
-from models.robot import Sole
-from models.validation import Parameters, number
-from systems.balance.wrench_distribution import (
+from footfall.models.robots.robot import Sole
+from footfall.models.values.validation import Parameters, number
+from footfall.models.values.vector import Vector
+from footfall.systems.balance.wrench_distribution import (
     DistributionParams,
     TorqueMap,
     distribute_wrench,
 )
-from systems.balance.zmp_preview import GRAVITY
-from systems.ports import Vector, eval_vector, set_vector
-from systems.timing import timed
+from footfall.systems.balance.zmp_preview import GRAVITY
+from footfall.systems.ports import eval_vector, set_vector
+from footfall.systems.timing import timed
 
 
 @dataclass(kw_only=True)

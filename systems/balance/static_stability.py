@@ -8,14 +8,15 @@ from pydrake.common.value import AbstractValue
 from pydrake.math import RigidTransform
 from pydrake.systems.framework import BasicVector, Context, LeafSystem, State
 
-from models.robot import Sole
-from systems.balance.contact_wrench_cone import Contact, sole_contact
-from systems.balance.convex_polygon import signed_margin
-from systems.balance.sole_contacts import carrying_contact, moved_by
-from systems.balance.stability_polygon import StabilityPolygon, static_polygon
-from systems.ports import eval_abstract, eval_vector, set_vector
-from systems.timing import timed
-from systems.values import StancePolygon, Value
+from footfall.models.robots.robot import Sole
+from footfall.models.values.contact import StancePolygon
+from footfall.models.values.value import Value
+from footfall.systems.balance.contact_wrench_cone import Contact, sole_contact
+from footfall.systems.balance.convex_polygon import signed_margin
+from footfall.systems.balance.sole_contacts import carrying_contact, moved_by
+from footfall.systems.balance.stability_polygon import StabilityPolygon, static_polygon
+from footfall.systems.ports import eval_abstract, eval_vector, set_vector
+from footfall.systems.timing import timed
 
 
 @dataclass(frozen=True, eq=False)

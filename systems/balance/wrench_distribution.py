@@ -6,11 +6,11 @@ from functools import lru_cache
 import daqp
 import numpy as np
 
-from models.robot import Sole
-from models.validation import Parameters, number
-from systems.balance.contact_wrench_cone import contact_wrench_cone
-from systems.balance.sole_contacts import carrying_contact
-from systems.ports import Vector
+from footfall.models.robots.robot import Sole
+from footfall.models.values.validation import Parameters, number
+from footfall.models.values.vector import Vector
+from footfall.systems.balance.contact_wrench_cone import contact_wrench_cone
+from footfall.systems.balance.sole_contacts import carrying_contact
 
 
 @dataclass(kw_only=True)

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from systems.balance.zmp_preview import GRAVITY
-from systems.ports import Vector
+from footfall.models.values.vector import Vector
+from footfall.systems.balance.zmp_preview import GRAVITY
 
 
 @dataclass(frozen=True, eq=False)

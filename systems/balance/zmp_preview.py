@@ -3,8 +3,8 @@
 `preview_gains`, `preview_step` and `generate` are Kajita et al., "Biped walking
 pattern generation by using preview control of zero-moment point" (ICRA 2003): a cart
 of constant height, servo type, gains from the Riccati equation. The obstacle paper's
-Eqs. 16 to 18 are its first stage. `systems.balance.zmp_tracking` is the better way
-for a plan whose future is known and whose height varies.
+Eqs. 16 to 18 are its first stage. `footfall.systems.balance.zmp_tracking` is the
+better way for a plan whose future is known and whose height varies.
 """
 
 from dataclasses import dataclass
@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import solve_banded, solve_discrete_are
 
-from models.validation import Parameters, number
-from systems.ports import Vector
+from footfall.models.values.validation import Parameters, number
+from footfall.models.values.vector import Vector
 
 GRAVITY = 9.81
 """Standard gravity, m/s^2."""

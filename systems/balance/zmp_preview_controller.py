@@ -5,7 +5,8 @@ from functools import partial
 import numpy as np
 from pydrake.systems.framework import BasicVector, Context, DiscreteValues, LeafSystem
 
-from systems.balance.zmp_preview import (
+from footfall.models.values.vector import Vector
+from footfall.systems.balance.zmp_preview import (
     PreviewGains,
     ZmpPreviewParams,
     preview_gains,
@@ -13,8 +14,8 @@ from systems.balance.zmp_preview import (
     rest_error_sum,
     rest_state,
 )
-from systems.ports import Vector, eval_vector, set_vector
-from systems.timing import timed
+from footfall.systems.ports import eval_vector, set_vector
+from footfall.systems.timing import timed
 
 
 class ZmpPreviewController(LeafSystem):

@@ -1,9 +1,10 @@
 """The CoM motion whose ZMP tracks a reference although the CoM's height varies.
 
-Where `systems.balance.zmp_preview` assumes a cart of constant height, here the height
-factor c_k = (z_k - p_zk) / (g + zdd_k) is given a tick, which makes the cart-table
-model exact on stairs. The whole future is known, so the problem is one finite-horizon
-linear-quadratic programme; its optimality conditions are one banded system.
+Where `footfall.systems.balance.zmp_preview` assumes a cart of constant height, here the
+height factor c_k = (z_k - p_zk) / (g + zdd_k) is given a tick, which makes the
+cart-table model exact on stairs. The whole future is known, so the problem is one
+finite-horizon linear-quadratic programme; its optimality conditions are one banded
+system.
 """
 
 from typing import TypeAlias
@@ -12,14 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solve_banded
 
-from systems.balance.zmp_preview import (
+from footfall.models.values.vector import Vector
+from footfall.systems.balance.zmp_preview import (
     GRAVITY,
     ComMotion,
     ZmpPreviewParams,
     check_reference,
     rest_state,
 )
-from systems.ports import Vector
 
 Index: TypeAlias = NDArray[np.intp]
 

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from systems.balance.zmp_preview import (
+from footfall.models.values.vector import Vector
+from footfall.systems.balance.zmp_preview import (
     GRAVITY,
     ComMotion,
     ZmpPreviewParams,
@@ -17,7 +18,6 @@ from systems.balance.zmp_preview import (
     check_reference,
     rest_state,
 )
-from systems.ports import Vector
 
 
 @dataclass(frozen=True, eq=False)

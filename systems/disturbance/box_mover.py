@@ -6,8 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from pydrake.systems.framework import BasicVector, Context, LeafSystem
 
-from systems.ports import Vector, set_vector
-from systems.timing import timed
+from footfall.models.values.vector import Vector
+from footfall.systems.ports import set_vector
+from footfall.systems.timing import timed
 
 
 @dataclass(frozen=True)

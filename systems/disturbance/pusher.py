@@ -10,8 +10,8 @@ from pydrake.multibody.plant import ExternallyAppliedSpatialForce
 from pydrake.multibody.tree import BodyIndex
 from pydrake.systems.framework import Context, LeafSystem
 
-from systems.ports import Vector
-from systems.timing import timed
+from footfall.models.values.vector import Vector
+from footfall.systems.timing import timed
 
 
 @dataclass(frozen=True)

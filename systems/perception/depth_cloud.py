@@ -10,12 +10,13 @@ from pydrake.math import RigidTransform
 from pydrake.perception import PointCloud
 from pydrake.systems.framework import BasicVector, Context, LeafSystem
 
-from models.validation import Parameters, number
-from systems.perception.scan_assembler import SelfFilterBox, remove_own_points
-from systems.ports import Vector, eval_abstract, set_vector
-from systems.room_values import DepthImage
-from systems.sensing.pinhole import pixel_rays
-from systems.timing import timed
+from footfall.models.values.room import DepthImage
+from footfall.models.values.validation import Parameters, number
+from footfall.models.values.vector import Vector
+from footfall.systems.perception.scan_assembler import SelfFilterBox, remove_own_points
+from footfall.systems.ports import eval_abstract, set_vector
+from footfall.systems.sensing.pinhole import pixel_rays
+from footfall.systems.timing import timed
 
 
 @dataclass(kw_only=True)

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from models.validation import Parameters, number
-from systems.ports import Vector
+from footfall.models.values.validation import Parameters, number
+from footfall.models.values.vector import Vector
 
 
 @dataclass(kw_only=True)

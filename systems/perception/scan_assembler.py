@@ -11,11 +11,13 @@ from pydrake.math import RigidTransform
 from pydrake.perception import PointCloud
 from pydrake.systems.framework import BasicVector, Context, LeafSystem, State
 
-from models.validation import Parameters, number
-from systems.ports import Vector, eval_abstract, eval_vector, set_vector
-from systems.sensing.scan_geometry import line_to_points, tilt_pose
-from systems.timing import timed
-from systems.values import LaserScan, Value
+from footfall.models.values.perceived import LaserScan
+from footfall.models.values.validation import Parameters, number
+from footfall.models.values.value import Value
+from footfall.models.values.vector import Vector
+from footfall.systems.ports import eval_abstract, eval_vector, set_vector
+from footfall.systems.sensing.scan_geometry import line_to_points, tilt_pose
+from footfall.systems.timing import timed
 
 
 @dataclass(kw_only=True)

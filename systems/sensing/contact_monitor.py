@@ -10,16 +10,17 @@ from pydrake.systems.framework import (
     LeafSystem,
 )
 
-from systems.ports import Vector, eval_abstract, set_vector
-from systems.sensing.moving_mean import window_weights
-from systems.sensing.robot_contacts import (
+from footfall.models.values.contact import Touch, Touches
+from footfall.models.values.vector import Vector
+from footfall.systems.ports import eval_abstract, set_vector
+from footfall.systems.sensing.moving_mean import window_weights
+from footfall.systems.sensing.robot_contacts import (
     RobotContact,
     WatchedGeometry,
     robot_contacts,
     scene_forces,
 )
-from systems.timing import timed
-from systems.values import Touch, Touches
+from footfall.systems.timing import timed
 
 WINDOW = 0.01
 """Forces are averaged over this, s: of an impact a single step of the plant says what

@@ -11,14 +11,15 @@ from pydrake.common.value import AbstractValue
 from pydrake.math import RigidTransform
 from pydrake.systems.framework import BasicVector, Context, LeafSystem, State
 
-from models.solids import TriangleMesh
-from models.validation import LARGEST_SEED, Parameters, number
-from systems.ports import Vector, eval_abstract, set_vector
-from systems.room_values import DepthImage
-from systems.sensing.pinhole import looking_at, pixel_rays, pixels_of_sphere
-from systems.sensing.ray_caster import Beams, BodyMesh, RayCaster
-from systems.timing import timed
-from systems.values import Value
+from footfall.models.scenes.solids import TriangleMesh
+from footfall.models.values.room import DepthImage
+from footfall.models.values.validation import LARGEST_SEED, Parameters, number
+from footfall.models.values.value import Value
+from footfall.models.values.vector import Vector
+from footfall.systems.ports import eval_abstract, set_vector
+from footfall.systems.sensing.pinhole import looking_at, pixel_rays, pixels_of_sphere
+from footfall.systems.sensing.ray_caster import Beams, BodyMesh, RayCaster
+from footfall.systems.timing import timed
 
 NEAR = 0.5
 """Depth at which the noise is `noise_near`, m (room paper, Sec. 2.1)."""

@@ -10,11 +10,12 @@ from pydrake.multibody.plant import ContactResults, MultibodyPlant
 from pydrake.multibody.tree import ModelInstanceIndex
 from pydrake.systems.framework import BasicVector, Context, LeafSystem
 
-from models.robot import RobotModel
-from systems.ports import Vector, eval_abstract, eval_vector, set_vector
-from systems.sensing.measured_zmp import measured_zmp
-from systems.timing import timed
-from systems.values import FEET
+from footfall.models.robots.robot import RobotModel
+from footfall.models.values.feet import FEET
+from footfall.models.values.vector import Vector
+from footfall.systems.ports import eval_abstract, eval_vector, set_vector
+from footfall.systems.sensing.measured_zmp import measured_zmp
+from footfall.systems.timing import timed
 
 _NOTHING: Vector = np.zeros(3)
 

@@ -5,11 +5,12 @@ from pydrake.math import RigidTransform, RollPitchYaw
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.systems.framework import BasicVector, Context, LeafSystem
 
-from models.robot import RobotModel
-from systems.plant_cache import declare_state_context
-from systems.ports import Vector, set_vector
-from systems.timing import timed
-from systems.values import FEET
+from footfall.models.robots.robot import RobotModel
+from footfall.models.values.feet import FEET
+from footfall.models.values.vector import Vector
+from footfall.systems.plant_cache import declare_state_context
+from footfall.systems.ports import set_vector
+from footfall.systems.timing import timed
 
 
 class KinematicState(LeafSystem):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from systems.ports import Vector
+from footfall.models.values.vector import Vector
 
 LEAST_FORCE = 1.0
 """With less upward force on all feet there is no ZMP, N."""

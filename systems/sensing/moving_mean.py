@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from systems.ports import Vector
+from footfall.models.values.vector import Vector
 
 
 def window_weights(window: float, step: float) -> Vector:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from pydrake.math import RigidTransform, RotationMatrix
 
-from systems.ports import Vector
+from footfall.models.values.vector import Vector
 
 
 @lru_cache(maxsize=4)

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from pydrake.math import RigidTransform
 
-from models.solids import TriangleMesh
-from systems.ports import Vector
-from systems.values import Value
+from footfall.models.scenes.solids import TriangleMesh
+from footfall.models.values.value import Value
+from footfall.models.values.vector import Vector
 
 # Open3D takes as long to import as all else together; who casts no ray needs none.
 if TYPE_CHECKING:
-    from systems.open3d_loader import open3d as o3d
+    from footfall.systems.open3d_loader import open3d as o3d
 
 Beams: TypeAlias = slice | np.ndarray[Any, np.dtype[np.int64]]
 """Some of the beams, by their place among all."""
@@ -138,7 +138,7 @@ def _tree(
 
 @lru_cache(maxsize=128)
 def _shared_tree(vertices: bytes, triangles: bytes) -> "o3d.t.geometry.RaycastingScene":
-    from systems.open3d_loader import open3d as o3d
+    from footfall.systems.open3d_loader import open3d as o3d
 
     tree = o3d.t.geometry.RaycastingScene(nthreads=1)
     corners = np.frombuffer(vertices, dtype=np.float32).reshape(-1, 3)
@@ -158,7 +158,7 @@ def _hit(
     threads: int,
 ) -> Vector:
     """Distances along directions in L, (n, 3), to a tree whose frame is T."""
-    from systems.open3d_loader import open3d as o3d
+    from footfall.systems.open3d_loader import open3d as o3d
 
     rays = np.empty((len(directions), 6), dtype=np.float32)
     rays[:, :3] = X_TL.translation()

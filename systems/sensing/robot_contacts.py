@@ -9,7 +9,7 @@ from pydrake.geometry import GeometryId, Role, SceneGraphInspector
 from pydrake.multibody.plant import ContactResults, MultibodyPlant
 from pydrake.multibody.tree import BodyIndex, ModelInstanceIndex
 
-from systems.ports import Vector
+from footfall.models.values.vector import Vector
 
 
 class Part(NamedTuple):

@@ -7,7 +7,7 @@ but for the tilt about their common y. The beams fan out in L's xy-plane.
 import numpy as np
 from pydrake.math import RigidTransform, RotationMatrix
 
-from systems.ports import Vector
+from footfall.models.values.vector import Vector
 
 
 def beam_angles(field_of_view: float, resolution: float) -> Vector:

@@ -10,8 +10,9 @@ from pydrake.systems.framework import (
     LeafSystem,
 )
 
-from systems.ports import Vector, set_vector
-from systems.timing import timed
+from footfall.models.values.vector import Vector
+from footfall.systems.ports import set_vector
+from footfall.systems.timing import timed
 
 
 def actuated_velocities(

@@ -10,13 +10,19 @@ from pydrake.common.value import AbstractValue
 from pydrake.math import RigidTransform
 from pydrake.systems.framework import BasicVector, Context, LeafSystem, State
 
-from models.solids import TriangleMesh
-from models.validation import LARGEST_SEED, Parameters, number
-from systems.ports import Vector, eval_abstract, eval_vector, set_vector
-from systems.sensing.ray_caster import BodyMesh, RayCaster
-from systems.sensing.scan_geometry import beam_angles, beam_directions, tilt_pose
-from systems.timing import timed
-from systems.values import LaserScan, Value
+from footfall.models.scenes.solids import TriangleMesh
+from footfall.models.values.perceived import LaserScan
+from footfall.models.values.validation import LARGEST_SEED, Parameters, number
+from footfall.models.values.value import Value
+from footfall.models.values.vector import Vector
+from footfall.systems.ports import eval_abstract, eval_vector, set_vector
+from footfall.systems.sensing.ray_caster import BodyMesh, RayCaster
+from footfall.systems.sensing.scan_geometry import (
+    beam_angles,
+    beam_directions,
+    tilt_pose,
+)
+from footfall.systems.timing import timed
 
 MOST_POINTS = 10_000_000
 """More than this many points of a sweep are refused; this scanner takes 260,521."""

@@ -5,8 +5,9 @@ from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import ModelInstanceIndex
 from pydrake.systems.framework import BasicVector, Context, LeafSystem
 
-from systems.ports import Vector, eval_vector, set_vector
-from systems.timing import timed
+from footfall.models.values.vector import Vector
+from footfall.systems.ports import eval_vector, set_vector
+from footfall.systems.timing import timed
 
 
 def servo_torque(

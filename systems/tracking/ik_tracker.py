@@ -4,11 +4,17 @@ import numpy as np
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.systems.framework import BasicVector, Context, DiscreteValues, LeafSystem
 
-from models.robot import RobotModel
-from systems.plant_cache import declare_scratch_context
-from systems.ports import Vector, eval_vector, set_vector
-from systems.timing import timed
-from systems.tracking.whole_body_ik import IkParams, IkTarget, WholeBodyIk, integrate
+from footfall.models.robots.robot import RobotModel
+from footfall.models.values.vector import Vector
+from footfall.systems.plant_cache import declare_scratch_context
+from footfall.systems.ports import eval_vector, set_vector
+from footfall.systems.timing import timed
+from footfall.systems.tracking.whole_body_ik import (
+    IkParams,
+    IkTarget,
+    WholeBodyIk,
+    integrate,
+)
 
 
 class IkTracker(LeafSystem):

@@ -5,11 +5,12 @@ from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import JacobianWrtVariable, MultibodyForces, RigidBody
 from pydrake.systems.framework import BasicVector, Context, LeafSystem
 
-from models.robot import RobotModel
-from systems.plant_cache import declare_scratch_context
-from systems.ports import Vector, eval_vector, set_vector
-from systems.timing import timed
-from systems.values import FEET
+from footfall.models.robots.robot import RobotModel
+from footfall.models.values.feet import FEET
+from footfall.models.values.vector import Vector
+from footfall.systems.plant_cache import declare_scratch_context
+from footfall.systems.ports import eval_vector, set_vector
+from footfall.systems.timing import timed
 
 
 def needed_forces(

@@ -14,10 +14,10 @@ from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import JacobianWrtVariable
 from pydrake.systems.framework import Context
 
-from models.robot import RobotModel
-from models.validation import Parameters, number
-from systems.ports import Vector
-from systems.values import FEET
+from footfall.models.robots.robot import RobotModel
+from footfall.models.values.feet import FEET
+from footfall.models.values.validation import Parameters, number
+from footfall.models.values.vector import Vector
 
 
 @dataclass(kw_only=True)

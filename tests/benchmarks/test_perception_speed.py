@@ -5,11 +5,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from models.jvrc1 import JVRC1
-from systems.open3d_loader import open3d as o3d
-from systems.perception.plane_segmentation import segment_planes
-from systems.perception.segmenter_params import PlaneSegmenterParams
-from systems.ports import Vector
+from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.values.vector import Vector
+from footfall.systems.open3d_loader import open3d as o3d
+from footfall.systems.perception.planes.plane_segmentation import segment_planes
+from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterParams
 
 EYE = np.array([-0.6, 0.0, 1.5])
 

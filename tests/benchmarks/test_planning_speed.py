@@ -6,15 +6,18 @@ import numpy as np
 import pytest
 from pydrake.math import RigidTransform, RollPitchYaw
 
-from models.robot import Sole
-from systems.planning.crossing_params import CrossingParams
-from systems.planning.feasibility_unit import feasibility_unit
-from systems.planning.footstep_params import FootstepPlannerParams
-from systems.planning.footstep_planner import plan_footsteps
-from systems.planning.leg_clearance import Section
-from systems.planning.swing_trajectory import SwingParams, swing_trajectory
-from systems.values import PlaneSegment, Staircase
-from tests.systems.planning.crossing_cases import WAIST, body, planned
+from footfall.models.robots.robot import Sole
+from footfall.models.values.perceived import PlaneSegment, Staircase
+from footfall.systems.planning.crossing.feasibility_unit import feasibility_unit
+from footfall.systems.planning.crossing.leg_clearance import Section
+from footfall.systems.planning.crossing.params import CrossingParams
+from footfall.systems.planning.footsteps.footstep_params import FootstepPlannerParams
+from footfall.systems.planning.footsteps.footstep_planner import plan_footsteps
+from footfall.systems.planning.motion.swing_trajectory import (
+    SwingParams,
+    swing_trajectory,
+)
+from tests.systems.planning.crossing.crossing_cases import WAIST, body, planned
 
 SOLE = Sole(heel=0.075, toe=0.150, half_width=0.042, ankle_height=0.1077)
 

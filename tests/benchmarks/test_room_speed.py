@@ -5,27 +5,33 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diagrams.scenario import load_scenario
-from models.jvrc1 import JVRC1
-from models.robot import Sole
-from models.room import RoomParams
-from models.room_obstacles import ClutterParams, place_boxes
-from models.solids import triangle_mesh
-from systems.perception.boxes import ObstacleClustererParams, find_boxes
-from systems.perception.depth_cloud import depth_to_points, downsample
-from systems.perception.environment_xml import read_environment, write_environment
-from systems.perception.floor import FloorParams, extract_floor
-from systems.planning.footstep_params import FootstepPlannerParams
-from systems.planning.motion import plan_motion
-from systems.planning.path_footsteps import plan_path_footsteps
-from systems.planning.path_params import PathPlannerParams
-from systems.planning.path_search import plan_path
-from systems.room_values import DepthImage, Environment
-from systems.sensing.depth_camera import DepthCameraParams, measure_depth
-from systems.sensing.pinhole import pixel_rays
-from systems.sensing.ray_caster import RayCaster
-from systems.values import FootstepPlan, MotionPlan
-from tests.systems.planning.room_cases import stand
+from footfall.diagrams.scenario import load_scenario
+from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.robots.robot import Sole
+from footfall.models.scenes.room import RoomParams
+from footfall.models.scenes.room_obstacles import ClutterParams, place_boxes
+from footfall.models.scenes.solids import triangle_mesh
+from footfall.models.values.planned import FootstepPlan, MotionPlan
+from footfall.models.values.room import DepthImage, Environment
+from footfall.systems.perception.depth_cloud import depth_to_points, downsample
+from footfall.systems.perception.obstacles.boxes import (
+    ObstacleClustererParams,
+    find_boxes,
+)
+from footfall.systems.perception.room.environment_xml import (
+    read_environment,
+    write_environment,
+)
+from footfall.systems.perception.room.floor import FloorParams, extract_floor
+from footfall.systems.planning.footsteps.footstep_params import FootstepPlannerParams
+from footfall.systems.planning.motion.motion import plan_motion
+from footfall.systems.planning.path.path_footsteps import plan_path_footsteps
+from footfall.systems.planning.path.path_params import PathPlannerParams
+from footfall.systems.planning.path.path_search import plan_path
+from footfall.systems.sensing.depth_camera import DepthCameraParams, measure_depth
+from footfall.systems.sensing.pinhole import pixel_rays
+from footfall.systems.sensing.ray_caster import RayCaster
+from tests.systems.planning.path.room_cases import stand
 
 SOLE = Sole(heel=0.075, toe=0.150, half_width=0.042, ankle_height=0.1077)
 CAMERA = DepthCameraParams(position=[0.0, -0.6, 3.9])

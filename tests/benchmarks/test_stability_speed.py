@@ -12,19 +12,23 @@ import pytest
 from pydrake.math import RigidTransform, RollPitchYaw
 from scipy.spatial import ConvexHull
 
-from systems.balance.contact_wrench_cone import (
+from footfall.systems.balance.contact_wrench_cone import (
     Contact,
     point_contact,
     stance_generators,
 )
-from systems.balance.convex_polygon import hausdorff_distance
-from systems.balance.stability_polygon import (
+from footfall.systems.balance.convex_polygon import hausdorff_distance
+from footfall.systems.balance.stability_polygon import (
     robust_polygon,
     static_polygon,
     zmp_support_area,
 )
-from systems.balance.zmp_preview import ZmpPreviewParams, generate, preview_gains
-from systems.balance.zmp_tracking import generate_varying_height
+from footfall.systems.balance.zmp_preview import (
+    ZmpPreviewParams,
+    generate,
+    preview_gains,
+)
+from footfall.systems.balance.zmp_tracking import generate_varying_height
 
 Stance = list[Contact]
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from systems import thinking
+from footfall.systems import thinking
 from tests.benchmarks.thinking_cases import Sample
 from tests.benchmarks.thinking_time import figures, set_defaults
 

@@ -8,15 +8,19 @@ from pydrake.math import RigidTransform
 from pydrake.multibody.parsing import Parser
 from pydrake.multibody.plant import MultibodyPlant
 
-from models.jvrc1 import JVRC1
-from models.robot_loader import body_meshes, prepared_urdf
-from models.scene import SceneParams
-from models.solids import triangle_mesh, upright_pose
-from models.staircase import StaircaseParams
-from systems.perception.scan_assembler import box_around, remove_own_points
-from systems.sensing.ray_caster import BodyMesh, RayCaster
-from systems.sensing.scan_geometry import beam_directions, line_to_points, tilt_pose
-from systems.sensing.tilting_lidar import TiltingLidarParams, measure
+from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.robots.robot_loader import body_meshes, prepared_urdf
+from footfall.models.scenes.scene import SceneParams
+from footfall.models.scenes.solids import triangle_mesh, upright_pose
+from footfall.models.scenes.staircase import StaircaseParams
+from footfall.systems.perception.scan_assembler import box_around, remove_own_points
+from footfall.systems.sensing.ray_caster import BodyMesh, RayCaster
+from footfall.systems.sensing.scan_geometry import (
+    beam_directions,
+    line_to_points,
+    tilt_pose,
+)
+from footfall.systems.sensing.tilting_lidar import TiltingLidarParams, measure
 
 PARAMS = TiltingLidarParams()
 

@@ -15,26 +15,34 @@ from pydrake.common.value import AbstractValue
 from pydrake.math import RigidTransform
 from pydrake.systems.framework import System
 
-from diagrams.scenario import Scenario, load_scenario
-from diagrams.station import robot_alone
-from diagrams.tasks import build_task
-from models.scene import SceneParams
-from models.solids import triangle_mesh, upright_pose
-from systems.perception.depth_cloud import point_cloud
-from systems.perception.obstacles import find_obstacles
-from systems.perception.staircase_merging import merge_staircase
-from systems.planning.motion_choice import Mode
-from systems.planning.motion_stop import stop_early
-from systems.planning.path_executive import blocking_box
-from systems.planning.whole_body_plan import WholeBody, planning_body
-from systems.ports import Vector
-from systems.room_values import DepthImage, Environment
-from systems.sensing.depth_camera import measure_depth
-from systems.sensing.pinhole import pixel_rays
-from systems.sensing.ray_caster import RayCaster
-from systems.sensing.scan_geometry import beam_directions, line_to_points, tilt_pose
-from systems.sensing.tilting_lidar import measure
-from systems.values import FootstepPlan, MotionPlan, PlaneSegmentation, Staircase
+from footfall.diagrams.closed_loop.station import robot_alone
+from footfall.diagrams.closed_loop.tasks import build_task
+from footfall.diagrams.scenario import Scenario, load_scenario
+from footfall.models.scenes.scene import SceneParams
+from footfall.models.scenes.solids import triangle_mesh, upright_pose
+from footfall.models.values.perceived import PlaneSegmentation, Staircase
+from footfall.models.values.planned import FootstepPlan, MotionPlan
+from footfall.models.values.room import DepthImage, Environment
+from footfall.models.values.vector import Vector
+from footfall.systems.perception.depth_cloud import point_cloud
+from footfall.systems.perception.obstacles.obstacles import find_obstacles
+from footfall.systems.perception.planes.staircase_merging import merge_staircase
+from footfall.systems.planning.executive.path_executive import blocking_box
+from footfall.systems.planning.motion.motion_choice import Mode
+from footfall.systems.planning.motion.motion_stop import stop_early
+from footfall.systems.planning.whole_body.whole_body_plan import (
+    WholeBody,
+    planning_body,
+)
+from footfall.systems.sensing.depth_camera import measure_depth
+from footfall.systems.sensing.pinhole import pixel_rays
+from footfall.systems.sensing.ray_caster import RayCaster
+from footfall.systems.sensing.scan_geometry import (
+    beam_directions,
+    line_to_points,
+    tilt_pose,
+)
+from footfall.systems.sensing.tilting_lidar import measure
 
 T = TypeVar("T")
 PLANNING: dict[tuple[str, Mode], str] = {

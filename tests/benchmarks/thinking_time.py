@@ -21,7 +21,7 @@ from typing import Any
 
 import numpy as np
 
-from systems import thinking
+from footfall.systems import thinking
 from tests.benchmarks.thinking_cases import Sample, think
 
 RESULT = Path(__file__).with_suffix(".json")

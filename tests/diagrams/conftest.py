@@ -12,27 +12,28 @@ from pydrake.multibody.plant import AddMultibodyPlant, MultibodyPlantConfig
 from pydrake.systems.framework import Context, DiagramBuilder, LeafSystem
 from pydrake.systems.primitives import ConstantVectorSource
 
-from diagrams.evidence import Evidence, robot_limits
-from diagrams.obstacle_crossing import build_obstacle_crossing
-from diagrams.scenario import Scenario, SimulationParams, load_scenario
-from diagrams.signals import SignalRecorder
-from diagrams.simulation import run_task
-from diagrams.task_diagram import TaskDiagram
-from models.contact_geometry import is_sole
-from models.jvrc1 import JVRC1
-from models.robot import JointGains
-from models.robot_loader import add_robot
-from models.scene import SceneParams
-from models.solid_names import is_ground
-from models.solids import add_solids
-from models.staircase import StaircaseParams
-from systems.sensing.contact_monitor import ContactMonitor
-from systems.sensing.foot_wrench_sensor import FootWrenchSensor
-from systems.sensing.robot_contacts import watched_geometry
-from systems.sensing.speed_monitor import SpeedMonitor
-from systems.timing import timed
-from systems.values import FEET, TaskStatus
-from tests.diagrams.climb_evidence import climb_evidence
+from footfall.diagrams.closed_loop.obstacle_crossing import build_obstacle_crossing
+from footfall.diagrams.closed_loop.task_diagram import TaskDiagram
+from footfall.diagrams.judge.evidence import Evidence, robot_limits
+from footfall.diagrams.scenario import Scenario, SimulationParams, load_scenario
+from footfall.diagrams.signals import SignalRecorder
+from footfall.diagrams.simulation import run_task
+from footfall.models.robots.contact_geometry import is_sole
+from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.robots.robot import JointGains
+from footfall.models.robots.robot_loader import add_robot
+from footfall.models.scenes.scene import SceneParams
+from footfall.models.scenes.solid_names import is_ground
+from footfall.models.scenes.solids import add_solids
+from footfall.models.scenes.staircase import StaircaseParams
+from footfall.models.values.feet import FEET
+from footfall.models.values.planned import TaskStatus
+from footfall.systems.sensing.contact_monitor import ContactMonitor
+from footfall.systems.sensing.foot_wrench_sensor import FootWrenchSensor
+from footfall.systems.sensing.robot_contacts import watched_geometry
+from footfall.systems.sensing.speed_monitor import SpeedMonitor
+from footfall.systems.timing import timed
+from tests.diagrams.judge.climb_evidence import climb_evidence
 
 TIME_STEP = 2e-3
 STIFF = replace(JVRC1, gains=dict.fromkeys(JVRC1.gains, JointGains(4000.0, 200.0, 0.1)))

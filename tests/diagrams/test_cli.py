@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from diagrams.cli import LOCAL_HOST, SLOPE, app
-from diagrams.live_view import LOCAL_HOST as DEFAULT_HOST
-from diagrams.scenario import save_scenario
-from diagrams.shipped import list_scenarios
-from diagrams.signals import load_run
-from systems.perception.segmenter_params import PlaneSegmenterParams
-from systems.values import TaskStatus
+from footfall.diagrams.cli import LOCAL_HOST, SLOPE, app
+from footfall.diagrams.figures.live_view import LOCAL_HOST as DEFAULT_HOST
+from footfall.diagrams.scenario import save_scenario
+from footfall.diagrams.shipped import list_scenarios
+from footfall.diagrams.signals import load_run
+from footfall.models.values.planned import TaskStatus
+from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterParams
 
 COMMANDS = ("list", "run", "segment", "plot", "replay", "render", "diagram")
 
@@ -28,14 +28,14 @@ def footfall(*arguments: object):
 @pytest.fixture
 def stand(monkeypatch, standing, tmp_path):
     """Makes every scenario a robot that stands; gives the path of one."""
-    tasks = ModuleType("diagrams.tasks")
+    tasks = ModuleType("footfall.diagrams.closed_loop.tasks")
     tasks.last = TaskStatus("finished", "stand", "stood")
 
     def build_task(scenario, meshcat=None):
         return standing.task(end=0.1, last=tasks.last)
 
     tasks.build_task = build_task
-    monkeypatch.setitem(sys.modules, "diagrams.tasks", tasks)
+    monkeypatch.setitem(sys.modules, "footfall.diagrams.closed_loop.tasks", tasks)
     monkeypatch.chdir(tmp_path)
     path = tmp_path / "standing.yaml"
     save_scenario(standing.scenario(), path)
@@ -94,7 +94,9 @@ def test_default_folders_are_numbered(stand, tmp_path) -> None:
 
 def test_a_task_that_was_not_done_is_status_1(stand, tmp_path) -> None:
     """Its reason is printed and in the summary."""
-    sys.modules["diagrams.tasks"].last = TaskStatus("infeasible", "plan", "too high")
+    sys.modules["footfall.diagrams.closed_loop.tasks"].last = TaskStatus(
+        "infeasible", "plan", "too high"
+    )
     result = footfall("run", stand, "--out", tmp_path / "out")
     assert result.exit_code == 1
     assert result.stdout.startswith("infeasible: too high")
@@ -104,7 +106,9 @@ def test_a_task_that_was_not_done_is_status_1(stand, tmp_path) -> None:
 def test_the_reason_stays_one_line_as_it_is(stand, tmp_path) -> None:
     """However long, brackets and all; nothing else is said where no terminal is."""
     reason = " and ".join(f"boxes[{number}] is in the way" for number in range(9))
-    sys.modules["diagrams.tasks"].last = TaskStatus("infeasible", "plan", reason)
+    sys.modules["footfall.diagrams.closed_loop.tasks"].last = TaskStatus(
+        "infeasible", "plan", reason
+    )
     result = footfall("run", stand, "--out", tmp_path / "out")
     assert result.stdout.splitlines()[0] == f"infeasible: {reason}"
     assert result.stderr == ""
@@ -194,7 +198,9 @@ def test_a_programming_error_is_no_bad_input(stand, monkeypatch) -> None:
     def broken(*_: object, **__: object) -> None:
         raise AssertionError("a bug")
 
-    monkeypatch.setattr(sys.modules["diagrams.tasks"], "build_task", broken)
+    monkeypatch.setattr(
+        sys.modules["footfall.diagrams.closed_loop.tasks"], "build_task", broken
+    )
     with pytest.raises(AssertionError, match="a bug"):
         CliRunner().invoke(app, ["run", str(stand)], catch_exceptions=False)
 
@@ -208,7 +214,7 @@ def test_meshcat_listens_where_it_is_told(stand, tmp_path, monkeypatch) -> None:
             raise RuntimeError("no such interface")
         seen.append(host)
 
-    monkeypatch.setattr("diagrams.live_view.meshcat_at", meshcat_at)
+    monkeypatch.setattr("footfall.diagrams.figures.live_view.meshcat_at", meshcat_at)
     footfall("run", stand, "--out", tmp_path / "a", "--meshcat")
     footfall("run", stand, "--out", tmp_path / "b", "--meshcat", "--meshcat-host", "*")
     footfall("run", stand, "--out", tmp_path / "c")
@@ -225,7 +231,9 @@ def test_ctrl_c_before_anything_is_simulated(stand, monkeypatch) -> None:
     def interrupted(*_: object, **__: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(sys.modules["diagrams.tasks"], "build_task", interrupted)
+    monkeypatch.setattr(
+        sys.modules["footfall.diagrams.closed_loop.tasks"], "build_task", interrupted
+    )
     result = footfall("run", stand)
     assert (result.exit_code, result.output) == (130, "footfall: interrupted\n")
 

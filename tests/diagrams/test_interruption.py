@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from diagrams.interruption import StopSignals
+from footfall.diagrams.interruption import StopSignals
 
 BOTH = (signal.SIGINT, signal.SIGTERM)
 

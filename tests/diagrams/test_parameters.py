@@ -15,41 +15,44 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from pydrake.math import RigidTransform
 
-import diagrams
-import models
-import systems
-from diagrams.scenario import Scenario
-from diagrams.task_params import PushParams
-from models.jvrc1 import JVRC1
-from models.mover import MoverParams
-from models.obstacle import BoxParams
-from models.room import RoomParams
-from models.scene import SceneParams
-from models.staircase import StaircaseParams
-from models.validation import BOUNDS, CHOICES, Parameters
-from systems.balance.landing_adaptor import LandingAdaptor, LandingParams
-from systems.balance.stabilizer import Stabilizer, StabilizerParams
-from systems.balance.zmp_preview import ZmpPreviewParams, preview_gains
-from systems.perception.boxes import ObstacleClustererParams
-from systems.perception.depth_cloud import DepthCloud, DepthCloudParams
-from systems.perception.floor import FloorParams
-from systems.perception.floor_extractor import FloorExtractor
-from systems.perception.obstacle_clusterer import ObstacleClusterer
-from systems.perception.obstacle_finder import ObstacleFinder
-from systems.perception.obstacles import ObstacleFinderParams
-from systems.perception.plane_segmenter import PlaneSegmenter
-from systems.perception.scan_assembler import ScanAssembler, ScanAssemblerParams
-from systems.perception.segmenter_params import PlaneSegmenterParams
-from systems.perception.staircase_map import StaircaseMap
-from systems.perception.staircase_merging import StaircaseMapParams
-from systems.planning.crossing_params import CrossingParams, HighCrossingParams
-from systems.planning.motion_params import MotionPlannerParams
-from systems.planning.motion_planner import MotionPlanner
-from systems.planning.path_params import PathPlannerParams
-from systems.planning.path_planner import PathPlanner
-from systems.planning.swing_trajectory import SwingParams
-from systems.sensing.depth_camera import DepthCameraParams
-from systems.sensing.tilting_lidar import TiltingLidarParams
+import footfall.diagrams
+import footfall.models
+import footfall.systems
+from footfall.diagrams.scenario import Scenario
+from footfall.diagrams.task_params import PushParams
+from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.scenes.mover import MoverParams
+from footfall.models.scenes.obstacle import BoxParams
+from footfall.models.scenes.room import RoomParams
+from footfall.models.scenes.scene import SceneParams
+from footfall.models.scenes.staircase import StaircaseParams
+from footfall.models.values.validation import BOUNDS, CHOICES, Parameters
+from footfall.systems.balance.landing_adaptor import LandingAdaptor, LandingParams
+from footfall.systems.balance.stabilizer import Stabilizer, StabilizerParams
+from footfall.systems.balance.zmp_preview import ZmpPreviewParams, preview_gains
+from footfall.systems.perception.depth_cloud import DepthCloud, DepthCloudParams
+from footfall.systems.perception.obstacles.boxes import ObstacleClustererParams
+from footfall.systems.perception.obstacles.obstacle_clusterer import ObstacleClusterer
+from footfall.systems.perception.obstacles.obstacle_finder import ObstacleFinder
+from footfall.systems.perception.obstacles.obstacles import ObstacleFinderParams
+from footfall.systems.perception.planes.plane_segmenter import PlaneSegmenter
+from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterParams
+from footfall.systems.perception.planes.staircase_map import StaircaseMap
+from footfall.systems.perception.planes.staircase_merging import StaircaseMapParams
+from footfall.systems.perception.room.floor import FloorParams
+from footfall.systems.perception.room.floor_extractor import FloorExtractor
+from footfall.systems.perception.scan_assembler import (
+    ScanAssembler,
+    ScanAssemblerParams,
+)
+from footfall.systems.planning.crossing.params import CrossingParams, HighCrossingParams
+from footfall.systems.planning.motion.motion_params import MotionPlannerParams
+from footfall.systems.planning.motion.motion_planner import MotionPlanner
+from footfall.systems.planning.motion.swing_trajectory import SwingParams
+from footfall.systems.planning.path.path_params import PathPlannerParams
+from footfall.systems.planning.path.path_planner import PathPlanner
+from footfall.systems.sensing.depth_camera import DepthCameraParams
+from footfall.systems.sensing.tilting_lidar import TiltingLidarParams
 
 NUMBERS = (int, float, list[float], list[float] | None)
 """The types of the fields that hold numbers."""
@@ -58,7 +61,7 @@ LARGEST = 2**31
 
 
 def _modules() -> Iterator[Any]:
-    for package in (diagrams, models, systems):
+    for package in (footfall.diagrams, footfall.models, footfall.systems):
         for found in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
             yield importlib.import_module(found.name)
 

@@ -9,13 +9,13 @@ import pytest
 from pydrake.systems.framework import Context
 from typer.testing import CliRunner
 
-import diagrams.simulation
-from diagrams.cli import app
-from diagrams.scenario import save_scenario
-from diagrams.signals import load_run
-from diagrams.simulation import summarize
-from diagrams.task_diagram import TaskDiagram
-from systems.values import TaskStatus
+import footfall.diagrams.simulation
+from footfall.diagrams.cli import app
+from footfall.diagrams.closed_loop.task_diagram import TaskDiagram
+from footfall.diagrams.scenario import save_scenario
+from footfall.diagrams.signals import load_run
+from footfall.diagrams.simulation import summarize
+from footfall.models.values.planned import TaskStatus
 from tests.diagrams.test_signal_files import room_for
 
 BOTH = [(signal.SIGINT, 130), (signal.SIGTERM, 143)]
@@ -32,11 +32,11 @@ def footfall_run(*arguments: object):
 @pytest.fixture
 def stand(monkeypatch, standing, tmp_path):
     """Makes every scenario a robot that stands for 0.1 s; gives the path of one."""
-    tasks = ModuleType("diagrams.tasks")
+    tasks = ModuleType("footfall.diagrams.closed_loop.tasks")
     tasks.build_task = lambda scenario, meshcat=None: standing.task(
         0.1, TaskStatus("finished", "stand", "stood")
     )
-    monkeypatch.setitem(sys.modules, "diagrams.tasks", tasks)
+    monkeypatch.setitem(sys.modules, "footfall.diagrams.closed_loop.tasks", tasks)
     monkeypatch.chdir(tmp_path)
     path = tmp_path / "standing.yaml"
     save_scenario(standing.scenario(), path)
@@ -78,7 +78,7 @@ def test_a_signal_while_it_is_judged_loses_nothing(
         os.kill(os.getpid(), number)
         return summarize(*arguments)
 
-    monkeypatch.setattr(diagrams.simulation, "summarize", judge)
+    monkeypatch.setattr(footfall.diagrams.simulation, "summarize", judge)
     result = footfall_run(stand, "--out", "out")
     assert result.exit_code == status
     assert result.stdout.startswith("completed: ")
@@ -97,7 +97,9 @@ def test_a_signal_while_it_is_drawn_keeps_what_there_is(
         open(path, "w").close()
         os.kill(os.getpid(), number)
 
-    monkeypatch.setattr("diagrams.report.FigureCanvasAgg.print_png", print_png)
+    monkeypatch.setattr(
+        "footfall.diagrams.figures.report.FigureCanvasAgg.print_png", print_png
+    )
     result = footfall_run(stand, "--out", "out")
     assert result.exit_code == status
     assert result.stdout.startswith("completed: ")
@@ -115,7 +117,7 @@ def test_the_summary_is_printed_before_anything_is_drawn(stand, monkeypatch) -> 
         print("drawing a run that is", load_run(folder).summary["outcome"])
         return []
 
-    monkeypatch.setattr("diagrams.run_command.illustrate", illustrate)
+    monkeypatch.setattr("footfall.diagrams.run_command.illustrate", illustrate)
     lines = footfall_run(stand).stdout.splitlines()
     assert lines[0].startswith("completed: ")
     assert lines[-1] == "drawing a run that is completed"
@@ -126,7 +128,7 @@ def test_a_signal_before_the_simulation_leaves_no_folder(
 ) -> None:
     """One line and no traceback."""
     monkeypatch.setattr(
-        sys.modules["diagrams.tasks"],
+        sys.modules["footfall.diagrams.closed_loop.tasks"],
         "build_task",
         lambda *_: os.kill(os.getpid(), signal.SIGTERM),
     )
@@ -149,7 +151,7 @@ def test_a_disk_that_fills_up_is_status_1_and_one_line(stand) -> None:
 
 def test_without_a_terminal_progress_is_a_line_now_and_then(stand, monkeypatch) -> None:
     """With what the robot is doing."""
-    monkeypatch.setattr("diagrams.run_command.TOLD_EVERY", 0.25)
+    monkeypatch.setattr("footfall.diagrams.run_command.TOLD_EVERY", 0.25)
     lines = footfall_run(stand).stderr.splitlines()
     assert lines[:2] == [
         "0.25 s of at most 1 s: stand",

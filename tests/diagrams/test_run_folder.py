@@ -5,10 +5,10 @@ from threading import Barrier
 
 import pytest
 
-from diagrams.run_folder import begin_run, make_numbered, run_name
-from diagrams.scenario import Scenario, load_scenario
-from models.scene import SceneParams
-from models.staircase import StaircaseParams
+from footfall.diagrams.run_folder import begin_run, make_numbered, run_name
+from footfall.diagrams.scenario import Scenario, load_scenario
+from footfall.models.scenes.scene import SceneParams
+from footfall.models.scenes.staircase import StaircaseParams
 
 
 @pytest.mark.parametrize(
@@ -90,7 +90,7 @@ def test_a_folder_that_cannot_be_begun_is_not_left_there(tmp_path, monkeypatch) 
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("diagrams.run_folder.save_scenario", full)
+    monkeypatch.setattr("footfall.diagrams.run_folder.save_scenario", full)
     with pytest.raises(OSError, match=r"No space left.*run/scenario\.yaml"):
         begin_run(tmp_path / "run", Scenario(name="s"))
     assert list(tmp_path.iterdir()) == []

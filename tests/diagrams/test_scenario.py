@@ -7,13 +7,13 @@ from pathlib import Path
 import pytest
 import yaml
 
-from diagrams.scenario import (
+from footfall.diagrams.scenario import (
     Scenario,
     ScenarioError,
     load_scenario,
     save_scenario,
 )
-from diagrams.shipped import list_scenarios
+from footfall.diagrams.shipped import list_scenarios
 
 STAIRS = "scene: {staircase: {rise: 0.1}}"
 

@@ -5,8 +5,8 @@ from typing import Any
 
 import pytest
 
-from diagrams.schema import FieldError, check, parse_yaml, set_field, validate
-from models.validation import Parameters, number
+from footfall.diagrams.schema import FieldError, check, parse_yaml, set_field, validate
+from footfall.models.values.validation import Parameters, number
 
 
 @dataclass(kw_only=True)

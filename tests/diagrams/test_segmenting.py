@@ -9,11 +9,11 @@ import pytest
 from matplotlib.image import imread
 from pypcd4 import Encoding, PointCloud
 
-from diagrams.segmenting import segment_file
-from systems.perception.cloud_files import CloudFileError
-from systems.perception.segmenter_params import PlaneSegmenterParams
-from systems.ports import Vector
-from systems.values import to_json
+from footfall.diagrams.segmenting import segment_file
+from footfall.models.values.value import to_json
+from footfall.models.values.vector import Vector
+from footfall.systems.perception.clouds.cloud_files import CloudFileError
+from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterParams
 
 GRAVITY = np.array([0.0, 0.0, -9.81])
 

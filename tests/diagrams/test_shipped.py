@@ -1,7 +1,7 @@
 """The scenarios that are shipped, listed without loading them."""
 
-from diagrams.scenario import load_scenario
-from diagrams.shipped import list_scenarios, shipped_scenarios
+from footfall.diagrams.scenario import load_scenario
+from footfall.diagrams.shipped import list_scenarios, shipped_scenarios
 
 
 def test_descriptions_are_those_of_the_loaded_scenarios() -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
-from diagrams.signal_files import (
+from footfall.diagrams.signal_files import (
     RunError,
     SignalFrames,
     append_whole,
@@ -67,7 +67,7 @@ def test_a_stream_is_read_up_to_its_last_whole_batch_wherever_it_is_cut(
 
 def test_parquet_is_made_of_a_stream(tmp_path, monkeypatch) -> None:
     """With all its rows and its units; the stream is gone then."""
-    monkeypatch.setattr("diagrams.signal_files.GROUP", 2)
+    monkeypatch.setattr("footfall.diagrams.signal_files.GROUP", 2)
     path = tmp_path / "s.y.arrows"
     path.write_bytes(b"".join(a_stream(5)) + b"torn")
     make_parquet(path)

@@ -7,9 +7,9 @@ from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import DiagramBuilder, LeafSystem
 from pydrake.systems.primitives import ConstantVectorSource, Sine
 
-from diagrams.signal_recorder import SignalRecorder
-from diagrams.signals import load_run
-from systems.values import TaskStatus
+from footfall.diagrams.signal_recorder import SignalRecorder
+from footfall.diagrams.signals import load_run
+from footfall.models.values.planned import TaskStatus
 
 
 class Counter(LeafSystem):

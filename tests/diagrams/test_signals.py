@@ -13,11 +13,11 @@ from pydrake.systems.primitives import (
     Sine,
 )
 
-from diagrams.scenario import Scenario, save_scenario
-from diagrams.signals import RunError, SignalRecorder, load_run
-from models.scene import SceneParams
-from models.staircase import StaircaseParams
-from systems.values import TaskStatus
+from footfall.diagrams.scenario import Scenario, save_scenario
+from footfall.diagrams.signals import RunError, SignalRecorder, load_run
+from footfall.models.scenes.scene import SceneParams
+from footfall.models.scenes.staircase import StaircaseParams
+from footfall.models.values.planned import TaskStatus
 
 
 def recorded() -> tuple[SignalRecorder, Simulator]:

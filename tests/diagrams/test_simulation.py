@@ -12,16 +12,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from diagrams.evidence import gather, joint_velocities
-from diagrams.evidence_signals import fall
-from diagrams.report import plot_run
-from diagrams.run_folder import RecordingError
-from diagrams.signals import load_run
-from diagrams.simulation import run_task, simulate
-from diagrams.watch import RobotWatch
-from models.scene import SceneParams
-from models.staircase import StaircaseParams
-from systems.values import TaskStatus
+from footfall.diagrams.figures.report import plot_run
+from footfall.diagrams.judge.evidence import gather, joint_velocities
+from footfall.diagrams.judge.evidence_signals import fall
+from footfall.diagrams.judge.watch import RobotWatch
+from footfall.diagrams.run_folder import RecordingError
+from footfall.diagrams.signals import load_run
+from footfall.diagrams.simulation import run_task, simulate
+from footfall.models.scenes.scene import SceneParams
+from footfall.models.scenes.staircase import StaircaseParams
+from footfall.models.values.planned import TaskStatus
 from tests.diagrams.test_signal_files import room_for
 
 
@@ -163,7 +163,7 @@ def test_a_folder_in_use_is_refused_and_left_alone(tmp_path, standing) -> None:
 KILLED = """
 import sys
 from pathlib import Path
-from diagrams.simulation import run_task
+from footfall.diagrams.simulation import run_task
 from tests.diagrams.conftest import standing_scenario, standing_task
 
 run_task(
@@ -246,7 +246,7 @@ def test_a_summary_that_does_not_fit_leaves_the_signals(
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("diagrams.summary.Summary.write", full)
+    monkeypatch.setattr("footfall.diagrams.judge.summary.Summary.write", full)
     with pytest.raises(RecordingError, match="No space left on device"):
         run_task(standing.task(), standing.scenario(), tmp_path / "run")
     run = load_run(tmp_path / "run")

@@ -14,9 +14,9 @@ from pathlib import Path
 
 import numpy as np
 
-from diagrams.scenario import Scenario, load_scenario
-from diagrams.simulation import run_task
-from diagrams.tasks import build_task
+from footfall.diagrams.closed_loop.tasks import build_task
+from footfall.diagrams.scenario import Scenario, load_scenario
+from footfall.diagrams.simulation import run_task
 
 COLUMNS = (
     "outcome",

@@ -13,9 +13,9 @@ import numpy as np
 import shapely
 from scipy.ndimage import label
 
-from diagrams.scenario import Scenario, load_scenario
-from diagrams.simulation import run_task
-from diagrams.tasks import build_task
+from footfall.diagrams.closed_loop.tasks import build_task
+from footfall.diagrams.scenario import Scenario, load_scenario
+from footfall.diagrams.simulation import run_task
 
 COLUMNS = (
     "outcome",

@@ -15,11 +15,11 @@ from pathlib import Path
 
 import numpy as np
 
-from diagrams.scenario import load_scenario
-from diagrams.signals import Run, load_run
-from diagrams.simulation import run_task
-from diagrams.tasks import build_task
-from systems.planning.foot_trajectory_generator import PROFILES
+from footfall.diagrams.closed_loop.tasks import build_task
+from footfall.diagrams.scenario import load_scenario
+from footfall.diagrams.signals import Run, load_run
+from footfall.diagrams.simulation import run_task
+from footfall.systems.planning.crossing.foot_trajectory_generator import PROFILES
 
 WINDOW = 0.05
 """After touch-down a force counts as impact for this long, s."""

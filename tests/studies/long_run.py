@@ -12,9 +12,9 @@ import resource
 import tempfile
 from pathlib import Path
 
-from diagrams.scenario import load_scenario
-from diagrams.simulation import run_task
-from diagrams.tasks import build_task
+from footfall.diagrams.closed_loop.tasks import build_task
+from footfall.diagrams.scenario import load_scenario
+from footfall.diagrams.simulation import run_task
 
 EVERY = 30.0
 """Between two lines, s of simulated time."""

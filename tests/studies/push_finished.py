@@ -18,12 +18,12 @@ from pathlib import Path
 
 import numpy as np
 
-from diagrams.scenario import load_scenario
-from diagrams.signals import load_run
-from diagrams.simulation import run_task
-from diagrams.summary import Summary
-from diagrams.task_params import PushParams
-from diagrams.tasks import build_task
+from footfall.diagrams.closed_loop.tasks import build_task
+from footfall.diagrams.judge.summary import Summary
+from footfall.diagrams.scenario import load_scenario
+from footfall.diagrams.signals import load_run
+from footfall.diagrams.simulation import run_task
+from footfall.diagrams.task_params import PushParams
 
 SCENARIOS = ("stairs-exp1", "obstacle-15cm", "room")
 AFTER = 0.1

@@ -14,18 +14,22 @@ from pathlib import Path
 import numpy as np
 from pydrake.math import RigidTransform
 
-from diagrams.station import robot_alone
-from models.jvrc1 import JVRC1
-from systems.balance.zmp_preview import ZmpPreviewParams
-from systems.obstacle_values import Obstacle
-from systems.planning.crossing_motion import plan_crossing
-from systems.planning.crossing_params import CrossingParams, ways_of_crossing
-from systems.planning.crossing_report import CrossingReport
-from systems.planning.feasibility_unit import feasibility_unit
-from systems.planning.leg_clearance import Section
-from systems.planning.motion_params import MotionPlannerParams
-from systems.planning.whole_body_plan import WholeBody, planning_body
-from systems.values import FEET, Footstep
+from footfall.diagrams.closed_loop.station import robot_alone
+from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.values.feet import FEET
+from footfall.models.values.obstacle import Obstacle
+from footfall.models.values.planned import Footstep
+from footfall.systems.balance.zmp_preview import ZmpPreviewParams
+from footfall.systems.planning.crossing.feasibility_unit import feasibility_unit
+from footfall.systems.planning.crossing.leg_clearance import Section
+from footfall.systems.planning.crossing.motion import plan_crossing
+from footfall.systems.planning.crossing.params import CrossingParams, ways_of_crossing
+from footfall.systems.planning.crossing.report import CrossingReport
+from footfall.systems.planning.motion.motion_params import MotionPlannerParams
+from footfall.systems.planning.whole_body.whole_body_plan import (
+    WholeBody,
+    planning_body,
+)
 
 WAIST = 0.79
 """Height of the hips in walking, m."""

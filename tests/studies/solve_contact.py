@@ -15,9 +15,9 @@ from pathlib import Path
 
 import numpy as np
 
-from diagrams.scenario import load_scenario
-from diagrams.simulation import run_task
-from diagrams.tasks import build_task
+from footfall.diagrams.closed_loop.tasks import build_task
+from footfall.diagrams.scenario import load_scenario
+from footfall.diagrams.simulation import run_task
 
 SCENARIOS = ("stairs-exp1", "obstacle-15cm", "room")
 SOLVED = (

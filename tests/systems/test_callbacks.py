@@ -4,7 +4,7 @@ import gc
 import weakref
 from functools import partial
 
-from systems.callbacks import weakly_bound
+from footfall.systems.callbacks import weakly_bound
 
 
 class Adder:

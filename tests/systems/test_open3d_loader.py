@@ -27,7 +27,7 @@ def imported(source: str) -> set[str]:
 def test_the_libusb_in_use_lies_in_the_environment() -> None:
     """Whether the system has one or not; asked in a process of its own."""
     code = (
-        "from systems.open3d_loader import open3d; "
+        "from footfall.systems.open3d_loader import open3d; "
         "print(len(open3d.core.Tensor([1, 2]))); print(open('/proc/self/maps').read())"
     )
     run = subprocess.run(

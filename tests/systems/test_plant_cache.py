@@ -6,8 +6,8 @@ from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import SpatialInertia
 from pydrake.systems.framework import BasicVector, Context, LeafSystem
 
-from systems.plant_cache import declare_scratch_context, declare_state_context
-from systems.ports import eval_vector, set_vector
+from footfall.systems.plant_cache import declare_scratch_context, declare_state_context
+from footfall.systems.ports import eval_vector, set_vector
 
 
 def falling_ball() -> MultibodyPlant:

@@ -6,8 +6,9 @@ from pydrake.common.value import Value
 from pydrake.systems.framework import BasicVector
 from pydrake.systems.primitives import ConstantValueSource, ConstantVectorSource
 
-from systems.ports import eval_abstract, eval_vector, set_vector
-from systems.values import Staircase, TaskStatus
+from footfall.models.values.perceived import Staircase
+from footfall.models.values.planned import TaskStatus
+from footfall.systems.ports import eval_abstract, eval_vector, set_vector
 
 
 def test_vector_is_a_copy_that_may_be_kept() -> None:

@@ -13,7 +13,7 @@ from pydrake.systems.framework import (
 )
 from pydrake.systems.primitives import ZeroOrderHold
 
-from systems.signal_log import SignalLog
+from footfall.systems.signal_log import SignalLog
 
 STEP, TICK = 0.0025, 0.005
 """Of the plant and of the controllers, s."""

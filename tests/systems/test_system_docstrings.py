@@ -20,52 +20,58 @@ from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import ModelInstanceIndex
 from pydrake.systems.framework import LeafSystem
 
-import systems
-from models.jvrc1 import JVRC1
-from models.robot_loader import add_robot
-from models.solids import triangle_mesh
-from systems.balance.com_reference import ComReference
-from systems.balance.landing_adaptor import LandingAdaptor, LandingParams
-from systems.balance.stabilizer import Stabilizer, StabilizerParams
-from systems.balance.static_stability import StaticStability
-from systems.balance.zmp_preview import ZmpPreviewParams
-from systems.balance.zmp_preview_controller import ZmpPreviewController
-from systems.disturbance.box_mover import BoxMover
-from systems.disturbance.pusher import Pusher
-from systems.perception.depth_cloud import DepthCloud, DepthCloudParams
-from systems.perception.environment_exchange import EnvironmentExchange
-from systems.perception.floor_extractor import FloorExtractor
-from systems.perception.obstacle_clusterer import ObstacleClusterer
-from systems.perception.obstacle_finder import ObstacleFinder
-from systems.perception.plane_segmenter import PlaneSegmenter
-from systems.perception.scan_assembler import ScanAssembler, ScanAssemblerParams
-from systems.perception.staircase_map import StaircaseMap
-from systems.planning.crossing_params import CrossingParams
-from systems.planning.crossing_planner import CrossingPlanner
-from systems.planning.executive import Executive, ExecutiveParams
-from systems.planning.footstep_params import FootstepPlannerParams
-from systems.planning.footstep_planner import FootstepPlanner
-from systems.planning.motion_params import MotionPlannerParams
-from systems.planning.motion_planner import MotionPlanner
-from systems.planning.motion_player import MotionPlayer
-from systems.planning.path_executive import PathExecutive, PathExecutiveParams
-from systems.planning.path_footstep_planner import PathFootstepPlanner
-from systems.planning.path_planner import PathPlanner
-from systems.planning.whole_body_plan import planning_body
-from systems.sensing.contact_monitor import ContactMonitor
-from systems.sensing.depth_camera import DepthCamera, DepthCameraParams
-from systems.sensing.foot_wrench_sensor import FootWrenchSensor
-from systems.sensing.kinematic_state import KinematicState
-from systems.sensing.robot_contacts import WatchedGeometry
-from systems.sensing.speed_monitor import SpeedMonitor
-from systems.sensing.tilting_lidar import TiltingLidar, TiltingLidarParams
-from systems.sensing.wanted_torque import WantedTorque
-from systems.signal_log import SignalLog
-from systems.tracking.ik_tracker import IkTracker
-from systems.tracking.whole_body_feedforward import WholeBodyFeedforward
-from systems.tracking.whole_body_ik import IkParams
-from systems.value_log_sink import ValueLogSink
-from systems.values import MotionPlan
+import footfall.systems
+from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.robots.robot_loader import add_robot
+from footfall.models.scenes.solids import triangle_mesh
+from footfall.models.values.planned import MotionPlan
+from footfall.systems.balance.com_reference import ComReference
+from footfall.systems.balance.landing_adaptor import LandingAdaptor, LandingParams
+from footfall.systems.balance.stabilizer import Stabilizer, StabilizerParams
+from footfall.systems.balance.static_stability import StaticStability
+from footfall.systems.balance.zmp_preview import ZmpPreviewParams
+from footfall.systems.balance.zmp_preview_controller import ZmpPreviewController
+from footfall.systems.disturbance.box_mover import BoxMover
+from footfall.systems.disturbance.pusher import Pusher
+from footfall.systems.perception.depth_cloud import DepthCloud, DepthCloudParams
+from footfall.systems.perception.obstacles.obstacle_clusterer import ObstacleClusterer
+from footfall.systems.perception.obstacles.obstacle_finder import ObstacleFinder
+from footfall.systems.perception.planes.plane_segmenter import PlaneSegmenter
+from footfall.systems.perception.planes.staircase_map import StaircaseMap
+from footfall.systems.perception.room.environment_exchange import EnvironmentExchange
+from footfall.systems.perception.room.floor_extractor import FloorExtractor
+from footfall.systems.perception.scan_assembler import (
+    ScanAssembler,
+    ScanAssemblerParams,
+)
+from footfall.systems.planning.crossing.crossing_planner import CrossingPlanner
+from footfall.systems.planning.crossing.params import CrossingParams
+from footfall.systems.planning.executive.executive import Executive, ExecutiveParams
+from footfall.systems.planning.executive.path_executive import (
+    PathExecutive,
+    PathExecutiveParams,
+)
+from footfall.systems.planning.footsteps.footstep_params import FootstepPlannerParams
+from footfall.systems.planning.footsteps.footstep_planner import FootstepPlanner
+from footfall.systems.planning.motion.motion_params import MotionPlannerParams
+from footfall.systems.planning.motion.motion_planner import MotionPlanner
+from footfall.systems.planning.motion.motion_player import MotionPlayer
+from footfall.systems.planning.path.path_footstep_planner import PathFootstepPlanner
+from footfall.systems.planning.path.path_planner import PathPlanner
+from footfall.systems.planning.whole_body.whole_body_plan import planning_body
+from footfall.systems.sensing.contact_monitor import ContactMonitor
+from footfall.systems.sensing.depth_camera import DepthCamera, DepthCameraParams
+from footfall.systems.sensing.foot_wrench_sensor import FootWrenchSensor
+from footfall.systems.sensing.kinematic_state import KinematicState
+from footfall.systems.sensing.robot_contacts import WatchedGeometry
+from footfall.systems.sensing.speed_monitor import SpeedMonitor
+from footfall.systems.sensing.tilting_lidar import TiltingLidar, TiltingLidarParams
+from footfall.systems.sensing.wanted_torque import WantedTorque
+from footfall.systems.signal_log import SignalLog
+from footfall.systems.tracking.ik_tracker import IkTracker
+from footfall.systems.tracking.whole_body_feedforward import WholeBodyFeedforward
+from footfall.systems.tracking.whole_body_ik import IkParams
+from footfall.systems.value_log_sink import ValueLogSink
 
 
 @cache
@@ -170,7 +176,7 @@ FACTORIES: dict[type[LeafSystem], Callable[[], LeafSystem]] = {
 def find_systems() -> list[type[LeafSystem]]:
     """Every public LeafSystem that a module under systems/ defines."""
     found = []
-    for info in pkgutil.walk_packages(systems.__path__, "systems."):
+    for info in pkgutil.walk_packages(footfall.systems.__path__, "footfall.systems."):
         module = importlib.import_module(info.name)
         found += [
             member

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from systems.thinking import ThinkingParams, Thought, ready_time
+from footfall.systems.thinking import ThinkingParams, Thought, ready_time
 
 MEASURED = Path(__file__).parents[1] / "benchmarks" / "thinking_time.json"
 

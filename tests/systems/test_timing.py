@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from pydrake.systems.framework import BasicVector, Context, DiagramBuilder, LeafSystem
 
-from systems import timing
-from systems.timing import RESOLUTION, Stopwatch, stopwatch, timed
+from footfall.systems import timing
+from footfall.systems.timing import RESOLUTION, Stopwatch, stopwatch, timed
 
 
 def spin(seconds: float) -> None:

@@ -5,8 +5,8 @@ from pydrake.common.value import AbstractValue, Value
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import Context, Diagram, DiagramBuilder, LeafSystem
 
-from systems.value_log_sink import ValueLogSink
-from systems.values import TaskStatus
+from footfall.models.values.planned import TaskStatus
+from footfall.systems.value_log_sink import ValueLogSink
 
 
 class Alternating(LeafSystem):

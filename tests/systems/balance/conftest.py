@@ -7,7 +7,7 @@ import pytest
 from pydrake.common.eigen_geometry import AngleAxis
 from pydrake.math import RigidTransform, RotationMatrix
 
-from systems.balance.contact_wrench_cone import Contact
+from footfall.systems.balance.contact_wrench_cone import Contact
 
 
 def _random_stance(rng: np.random.Generator) -> list[Contact]:

@@ -12,11 +12,11 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Polygon, Rectangle
 from pydrake.math import RigidTransform
 
-from models.jvrc1 import JVRC1
-from systems.balance.contact_wrench_cone import sole_contact
-from systems.balance.convex_polygon import area
-from systems.balance.handrail import hand_contact
-from systems.balance.stability_polygon import static_polygon
+from footfall.models.robots.jvrc1 import JVRC1
+from footfall.systems.balance.contact_wrench_cone import sole_contact
+from footfall.systems.balance.convex_polygon import area
+from footfall.systems.balance.handrail import hand_contact
+from footfall.systems.balance.stability_polygon import static_polygon
 
 
 def handrail_figure() -> Figure:

@@ -14,8 +14,8 @@ from collections import Counter
 
 import numpy as np
 
-from systems.balance.convex_polygon import hausdorff_distance
-from systems.balance.stability_polygon import Method, static_polygon
+from footfall.systems.balance.convex_polygon import hausdorff_distance
+from footfall.systems.balance.stability_polygon import Method, static_polygon
 from tests.systems.balance.conftest import _random_stance
 
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from systems.balance.com_reference import ComReference
-from systems.ports import eval_vector
+from footfall.systems.balance.com_reference import ComReference
+from footfall.systems.ports import eval_vector
 
 
 def test_joins_position_velocity_and_acceleration() -> None:

@@ -5,7 +5,7 @@ import pytest
 from pydrake.math import RigidTransform, RollPitchYaw
 from scipy.optimize import linprog, nnls
 
-from systems.balance.contact_wrench_cone import (
+from footfall.systems.balance.contact_wrench_cone import (
     Contact,
     contact_wrench_cone,
     contact_wrench_cone_world,

@@ -5,7 +5,7 @@ import pytest
 from shapely import MultiPoint, Point, Polygon, box
 from shapely.geometry.base import BaseGeometry
 
-from systems.balance.convex_polygon import (
+from footfall.systems.balance.convex_polygon import (
     area,
     clip_square,
     hausdorff_distance,

@@ -13,20 +13,20 @@ from pydrake.multibody.tree import (
 )
 from pydrake.systems.framework import DiagramBuilder
 
-from systems.balance.dynamic_filter import (
+from footfall.systems.balance.dynamic_filter import (
     MomentumTrajectory,
     filter_motion,
     filter_motion_varying_height,
     multibody_zmp,
     zmp_of_rates,
 )
-from systems.balance.zmp_preview import (
+from footfall.systems.balance.zmp_preview import (
     GRAVITY,
     ZmpPreviewParams,
     generate,
     preview_gains,
 )
-from systems.balance.zmp_tracking import generate_varying_height
+from footfall.systems.balance.zmp_tracking import generate_varying_height
 
 T = 0.005
 TIMES = np.arange(1200) * T

@@ -5,11 +5,15 @@ import pytest
 from pydrake.math import RigidTransform
 from scipy.optimize import linprog
 
-from systems.balance.contact_wrench_cone import Contact, sole_contact, stance_generators
-from systems.balance.convex_polygon import area, signed_margin
-from systems.balance.handrail import hand_contact
-from systems.balance.stability_polygon import static_polygon
-from systems.ports import Vector
+from footfall.models.values.vector import Vector
+from footfall.systems.balance.contact_wrench_cone import (
+    Contact,
+    sole_contact,
+    stance_generators,
+)
+from footfall.systems.balance.convex_polygon import area, signed_margin
+from footfall.systems.balance.handrail import hand_contact
+from footfall.systems.balance.stability_polygon import static_polygon
 
 
 def on_a_step() -> list[Contact]:

@@ -5,14 +5,15 @@ import pytest
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import Context
 
-from systems.balance.landing_adaptor import (
+from footfall.models.values.vector import Vector
+from footfall.systems.balance.landing_adaptor import (
     FootState,
     LandingAdaptor,
     LandingParams,
     adapt,
     standing,
 )
-from systems.ports import Vector, eval_vector
+from footfall.systems.ports import eval_vector
 
 PARAMS = LandingParams()
 T = PARAMS.period

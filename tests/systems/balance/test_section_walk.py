@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 from pydrake.math import RigidTransform, RollPitchYaw
 
-from systems.balance.contact_wrench_cone import Contact, point_contact
-from systems.balance.gravito_inertial_cone import (
+from footfall.systems.balance.contact_wrench_cone import Contact, point_contact
+from footfall.systems.balance.gravito_inertial_cone import (
     centred_generators,
     cone_of_generators,
 )
-from systems.balance.section_walk import section_rows
-from systems.balance.stability_polygon import static_polygon
-from systems.balance.wrench_slice import static_slice, zmp_slice
+from footfall.systems.balance.section_walk import section_rows
+from footfall.systems.balance.stability_polygon import static_polygon
+from footfall.systems.balance.wrench_slice import static_slice, zmp_slice
 
 
 def foot(x: float, y: float, z: float, *rpy: float, mu: float = 0.7) -> Contact:

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from pydrake.math import RigidTransform, RollPitchYaw
 
-from models.robot import Sole
-from systems.balance.contact_wrench_cone import sole_contact
-from systems.balance.sole_contacts import carrying_contact, moved_by
-from systems.planning.toe_off import lift_heel
+from footfall.models.robots.robot import Sole
+from footfall.systems.balance.contact_wrench_cone import sole_contact
+from footfall.systems.balance.sole_contacts import carrying_contact, moved_by
+from footfall.systems.planning.motion.toe_off import lift_heel
 
 SOLE = Sole(heel=0.1, toe=0.14, half_width=0.07, ankle_height=0.1)
 POSE = np.array([0.3, 0.1, 0.2, 0.0, 0.0, 0.4])

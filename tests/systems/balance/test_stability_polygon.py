@@ -11,16 +11,22 @@ from pydrake.math import RigidTransform, RollPitchYaw, RotationMatrix
 from scipy.optimize import linprog
 from shapely import MultiPoint
 
-from systems.balance import gravito_inertial_cone as gravito_inertial_cone_module
-from systems.balance import stability_polygon
-from systems.balance.contact_wrench_cone import (
+from footfall.systems.balance import (
+    gravito_inertial_cone as gravito_inertial_cone_module,
+)
+from footfall.systems.balance import stability_polygon
+from footfall.systems.balance.contact_wrench_cone import (
     Contact,
     point_contact,
     stance_generators,
 )
-from systems.balance.convex_polygon import area, hausdorff_distance, signed_margin
-from systems.balance.gravito_inertial_cone import gravito_inertial_cone
-from systems.balance.stability_polygon import (
+from footfall.systems.balance.convex_polygon import (
+    area,
+    hausdorff_distance,
+    signed_margin,
+)
+from footfall.systems.balance.gravito_inertial_cone import gravito_inertial_cone
+from footfall.systems.balance.stability_polygon import (
     HALF_SIDE,
     Method,
     required_friction,
@@ -28,7 +34,7 @@ from systems.balance.stability_polygon import (
     static_polygon,
     zmp_support_area,
 )
-from systems.balance.zmp_preview import GRAVITY
+from footfall.systems.balance.zmp_preview import GRAVITY
 
 RandomStance = Callable[[np.random.Generator], list[Contact]]
 DATA = Path(

@@ -5,15 +5,16 @@ import pytest
 from pydrake.systems.framework import Context
 from scipy.integrate import solve_ivp
 
-from models.jvrc1 import JVRC1
-from systems.balance import stabilizer
-from systems.balance.stabilizer import (
+from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.values.vector import Vector
+from footfall.systems.balance import stabilizer
+from footfall.systems.balance.stabilizer import (
     BalanceCommand,
     Stabilizer,
     StabilizerParams,
     dcm_feedback,
 )
-from systems.ports import Vector, eval_vector
+from footfall.systems.ports import eval_vector
 
 MASS = 62.4
 COM = np.array([0.05, 0.02, 0.85])

@@ -6,13 +6,13 @@ from pydrake.math import RigidTransform, RollPitchYaw
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import Context
 
-from models.robot import Sole
-from systems.balance import static_stability
-from systems.balance.contact_wrench_cone import point_contact, sole_contact
-from systems.balance.convex_polygon import hausdorff_distance, signed_margin
-from systems.balance.stability_polygon import StabilityPolygon, static_polygon
-from systems.balance.static_stability import StaticStability
-from systems.planning.toe_off import lift_heel
+from footfall.models.robots.robot import Sole
+from footfall.systems.balance import static_stability
+from footfall.systems.balance.contact_wrench_cone import point_contact, sole_contact
+from footfall.systems.balance.convex_polygon import hausdorff_distance, signed_margin
+from footfall.systems.balance.stability_polygon import StabilityPolygon, static_polygon
+from footfall.systems.balance.static_stability import StaticStability
+from footfall.systems.planning.motion.toe_off import lift_heel
 
 SOLE = {"heel": 0.1, "toe": 0.14, "half_width": 0.07, "friction": 0.7}
 POSES = np.array([0, 0.1, 0, 0, 0, 0.1, 0.25, -0.1, 0.2, 0, 0.2, 0.0])

@@ -8,14 +8,14 @@ from pydrake.math import RigidTransform, RollPitchYaw
 from pydrake.solvers import ClarabelSolver, MathematicalProgram
 from scipy.optimize import linprog
 
-from models.jvrc1 import JVRC1
-from systems.balance.contact_wrench_cone import contact_wrench_cone
-from systems.balance.wrench_distribution import (
+from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.values.vector import Vector
+from footfall.systems.balance.contact_wrench_cone import contact_wrench_cone
+from footfall.systems.balance.wrench_distribution import (
     DistributionParams,
     TorqueMap,
     distribute_wrench,
 )
-from systems.ports import Vector
 
 SOLE = JVRC1.sole
 LEVEL = np.array([[0.0, 0.1, 0, 0, 0, 0], [0.05, -0.1, 0, 0, 0, 0]])

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from systems.balance.zmp_preview import (
+from footfall.systems.balance.zmp_preview import (
     GRAVITY,
     ZmpPreviewParams,
     generate,

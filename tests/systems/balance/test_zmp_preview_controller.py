@@ -5,8 +5,12 @@ import pytest
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import Context
 
-from systems.balance.zmp_preview import ZmpPreviewParams, generate, preview_step
-from systems.balance.zmp_preview_controller import ZmpPreviewController
+from footfall.systems.balance.zmp_preview import (
+    ZmpPreviewParams,
+    generate,
+    preview_step,
+)
+from footfall.systems.balance.zmp_preview_controller import ZmpPreviewController
 
 PARAMS = ZmpPreviewParams(preview_time=1.0)
 

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from systems.balance.zmp_preview import (
+from footfall.systems.balance.zmp_preview import (
     GRAVITY,
     ZmpPreviewParams,
     cart,
     generate,
     preview_gains,
 )
-from systems.balance.zmp_tracking import generate_varying_height, height_factor
+from footfall.systems.balance.zmp_tracking import generate_varying_height, height_factor
 
 T = 0.005
 PARAMS = ZmpPreviewParams()

@@ -3,9 +3,13 @@
 import numpy as np
 import pytest
 
-from systems.balance.zmp_preview import ZmpPreviewParams, generate, preview_gains
-from systems.balance.zmp_window import generate_by_window, window_gains
-from systems.ports import Vector
+from footfall.models.values.vector import Vector
+from footfall.systems.balance.zmp_preview import (
+    ZmpPreviewParams,
+    generate,
+    preview_gains,
+)
+from footfall.systems.balance.zmp_window import generate_by_window, window_gains
 
 PARAMS = ZmpPreviewParams(period=0.01)
 

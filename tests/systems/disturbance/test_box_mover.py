@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from systems.disturbance.box_mover import BoxMotion, BoxMover, box_motion
+from footfall.systems.disturbance.box_mover import BoxMotion, BoxMover, box_motion
 
 MOTION = BoxMotion((0.8, -1.8), (0.8, 0.2), 5.0, 2.0)
 

@@ -11,7 +11,7 @@ from pydrake.multibody.tree import BodyIndex, SpatialInertia
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import DiagramBuilder
 
-from systems.disturbance.pusher import Push, Pusher
+from footfall.systems.disturbance.pusher import Push, Pusher
 
 FORCE = np.array([30.0, -20.0, 10.0])
 STEP = 2.0**-10

@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 import numpy as np
 import pytest
 
-from systems.open3d_loader import open3d as o3d
+from footfall.systems.open3d_loader import open3d as o3d
 
 Array: TypeAlias = np.ndarray[Any, np.dtype[np.float64]]
 

@@ -5,8 +5,9 @@ import pytest
 from pydrake.common.value import AbstractValue
 from pydrake.math import RigidTransform, RollPitchYaw
 
-from models.solids import upright_pose
-from systems.perception.depth_cloud import (
+from footfall.models.scenes.solids import upright_pose
+from footfall.models.values.room import DepthImage
+from footfall.systems.perception.depth_cloud import (
     DepthCloud,
     DepthCloudParams,
     crop,
@@ -14,8 +15,7 @@ from systems.perception.depth_cloud import (
     downsample,
     remove_robot,
 )
-from systems.perception.scan_assembler import SelfFilterBox, remove_own_points
-from systems.room_values import DepthImage
+from footfall.systems.perception.scan_assembler import SelfFilterBox, remove_own_points
 
 X_WC = RigidTransform(RollPitchYaw(2.7, 0.1, -0.4), np.array([0.3, -0.2, 2.8]))
 

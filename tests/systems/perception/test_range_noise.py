@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from systems.perception.range_noise import RangeNoise, slide_to_plane
+from footfall.systems.perception.range_noise import RangeNoise, slide_to_plane
 
 
 def test_deviation_is_the_papers_at_both_ends() -> None:

@@ -9,17 +9,17 @@ from pydrake.systems.framework import DiagramBuilder
 from pydrake.systems.primitives import ConstantValueSource, TrajectorySource
 from pydrake.trajectories import PiecewisePolynomial
 
-from models.room import RoomParams
-from models.solids import Box, triangle_mesh, upright_pose
-from systems.perception.scan_assembler import (
+from footfall.models.scenes.room import RoomParams
+from footfall.models.scenes.solids import Box, triangle_mesh, upright_pose
+from footfall.systems.perception.scan_assembler import (
     ScanAssembler,
     ScanAssemblerParams,
     SelfFilterBox,
     box_around,
     remove_own_points,
 )
-from systems.sensing.ray_caster import BodyMesh
-from systems.sensing.tilting_lidar import TiltingLidar, TiltingLidarParams
+from footfall.systems.sensing.ray_caster import BodyMesh
+from footfall.systems.sensing.tilting_lidar import TiltingLidar, TiltingLidarParams
 
 HEAD, CHEST = 1, 2
 POSES = [RigidTransform(), upright_pose(z=1.5), upright_pose(x=0.3, z=1.0, yaw=0.5)]

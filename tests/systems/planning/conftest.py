@@ -8,16 +8,16 @@ from pydrake.geometry import SceneGraph
 from pydrake.math import RigidTransform
 from pydrake.multibody.plant import MultibodyPlant
 
-from models.collision_hulls import collision_hulls
-from models.jvrc1 import JVRC1
-from models.robot_loader import add_robot
-from models.self_distance import SelfDistanceMeter
-from systems.balance.wrench_distribution import DistributionParams
-from systems.planning.motion_choice import MotionTask
-from systems.planning.motion_prediction import MotionPredictor
-from systems.ports import Vector
-from systems.tracking.whole_body_ik import IkParams, WholeBodyIk
-from systems.values import Footstep
+from footfall.models.robots.collision_hulls import collision_hulls
+from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.robots.robot_loader import add_robot
+from footfall.models.robots.self_distance import SelfDistanceMeter
+from footfall.models.values.planned import Footstep
+from footfall.models.values.vector import Vector
+from footfall.systems.balance.wrench_distribution import DistributionParams
+from footfall.systems.planning.motion.motion_choice import MotionTask
+from footfall.systems.planning.motion.motion_prediction import MotionPredictor
+from footfall.systems.tracking.whole_body_ik import IkParams, WholeBodyIk
 
 
 @dataclass(frozen=True)

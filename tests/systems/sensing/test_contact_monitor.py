@@ -8,11 +8,12 @@ from pydrake.multibody.plant import ContactResults
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import DiagramBuilder
 
-from models.solid_names import is_ground
-from systems.ports import Vector, eval_vector
-from systems.sensing.contact_monitor import ContactMonitor
-from systems.sensing.robot_contacts import WatchedGeometry, watched_geometry
-from systems.values import Touches
+from footfall.models.scenes.solid_names import is_ground
+from footfall.models.values.contact import Touches
+from footfall.models.values.vector import Vector
+from footfall.systems.ports import eval_vector
+from footfall.systems.sensing.contact_monitor import ContactMonitor
+from footfall.systems.sensing.robot_contacts import WatchedGeometry, watched_geometry
 from tests.systems.sensing.ball_scene import FEET, WEIGHT, ball_scene, is_sole
 
 

@@ -8,16 +8,16 @@ from pydrake.common.value import AbstractValue
 from pydrake.math import RigidTransform
 from pydrake.systems.analysis import Simulator
 
-from models.room import RoomParams
-from models.solids import Box, triangle_mesh, upright_pose
-from systems.room_values import DepthImage
-from systems.sensing.depth_camera import (
+from footfall.models.scenes.room import RoomParams
+from footfall.models.scenes.solids import Box, triangle_mesh, upright_pose
+from footfall.models.values.room import DepthImage
+from footfall.systems.sensing.depth_camera import (
     DepthCamera,
     DepthCameraParams,
     depth_noise,
     measure_depth,
 )
-from systems.sensing.ray_caster import BodyMesh
+from footfall.systems.sensing.ray_caster import BodyMesh
 
 QUIET = DepthCameraParams(
     columns=64, rows=48, noise_near=0.0, noise_far=0.0, target=[0.0, -0.8, 0.0]

@@ -18,16 +18,17 @@ from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import Context, DiagramBuilder
 from pydrake.systems.primitives import ConstantVectorSource
 
-from diagrams.station import DRAKE_CONTACT_MODELS
-from models.contact_geometry import CONTACT_MODELS, ContactModel
-from models.jvrc1 import JVRC1
-from models.robot import JointGains
-from models.robot_loader import add_robot
-from models.room import RoomParams
-from models.solids import add_solids
-from systems.ports import Vector, eval_vector
-from systems.sensing.foot_wrench_sensor import FootWrenchSensor, sum_wrenches
-from systems.values import FEET
+from footfall.diagrams.closed_loop.station import DRAKE_CONTACT_MODELS
+from footfall.models.robots.contact_geometry import CONTACT_MODELS, ContactModel
+from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.robots.robot import JointGains
+from footfall.models.robots.robot_loader import add_robot
+from footfall.models.scenes.room import RoomParams
+from footfall.models.scenes.solids import add_solids
+from footfall.models.values.feet import FEET
+from footfall.models.values.vector import Vector
+from footfall.systems.ports import eval_vector
+from footfall.systems.sensing.foot_wrench_sensor import FootWrenchSensor, sum_wrenches
 
 STIFF = replace(JVRC1, gains=dict.fromkeys(JVRC1.gains, JointGains(4000.0, 200.0, 0.1)))
 """Stands by its servos alone."""

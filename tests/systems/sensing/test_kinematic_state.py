@@ -8,11 +8,12 @@ from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import ModelInstanceIndex
 from pydrake.systems.framework import Context
 
-from models.jvrc1 import JVRC1
-from models.robot_loader import add_robot
-from systems.ports import Vector, eval_vector
-from systems.sensing.kinematic_state import KinematicState
-from systems.values import FEET
+from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.robots.robot_loader import add_robot
+from footfall.models.values.feet import FEET
+from footfall.models.values.vector import Vector
+from footfall.systems.ports import eval_vector
+from footfall.systems.sensing.kinematic_state import KinematicState
 
 
 @pytest.fixture(scope="module")

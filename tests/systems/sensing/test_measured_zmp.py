@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from pydrake.math import RigidTransform, RollPitchYaw
 
-from systems.ports import Vector
-from systems.sensing.measured_zmp import measured_zmp
+from footfall.models.values.vector import Vector
+from footfall.systems.sensing.measured_zmp import measured_zmp
 
 
 def matrices(poses: list[RigidTransform]) -> Vector:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from systems.sensing.moving_mean import window_weights
+from footfall.systems.sensing.moving_mean import window_weights
 
 
 @pytest.mark.parametrize(

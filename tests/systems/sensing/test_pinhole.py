@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from systems.sensing.pinhole import looking_at, pixel_rays, pixels_of_sphere
+from footfall.systems.sensing.pinhole import looking_at, pixel_rays, pixels_of_sphere
 
 ROWS, COLUMNS, FOCAL = 48, 64, 40.0
 

@@ -4,11 +4,15 @@ import numpy as np
 import pytest
 from pydrake.math import RigidTransform, RollPitchYaw
 
-from models.room import RoomParams
-from models.solids import Box, TriangleMesh, triangle_mesh, upright_pose
-from systems.open3d_loader import open3d as o3d
-from systems.sensing.ray_caster import BodyMesh, RayCaster
-from systems.sensing.scan_geometry import beam_angles, beam_directions, tilt_pose
+from footfall.models.scenes.room import RoomParams
+from footfall.models.scenes.solids import Box, TriangleMesh, triangle_mesh, upright_pose
+from footfall.systems.open3d_loader import open3d as o3d
+from footfall.systems.sensing.ray_caster import BodyMesh, RayCaster
+from footfall.systems.sensing.scan_geometry import (
+    beam_angles,
+    beam_directions,
+    tilt_pose,
+)
 
 ANGLES = beam_angles(np.radians(270.0), np.radians(0.25))
 DIRECTIONS = beam_directions(ANGLES)

@@ -20,8 +20,8 @@ from pydrake.multibody.tree import SpatialInertia
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import DiagramBuilder
 
-from models.solid_names import is_ground
-from systems.sensing.robot_contacts import (
+from footfall.models.scenes.solid_names import is_ground
+from footfall.systems.sensing.robot_contacts import (
     RobotContact,
     WatchedGeometry,
     robot_contacts,

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from pydrake.math import RigidTransform, RollPitchYaw
 
-from systems.sensing.scan_geometry import (
+from footfall.systems.sensing.scan_geometry import (
     beam_angles,
     beam_directions,
     line_to_points,

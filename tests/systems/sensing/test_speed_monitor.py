@@ -5,10 +5,11 @@ import pytest
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import Context
 
-from diagrams.station import robot_alone
-from models.jvrc1 import JVRC1
-from systems.ports import Vector, eval_vector
-from systems.sensing.speed_monitor import SpeedMonitor, actuated_velocities
+from footfall.diagrams.closed_loop.station import robot_alone
+from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.values.vector import Vector
+from footfall.systems.ports import eval_vector
+from footfall.systems.sensing.speed_monitor import SpeedMonitor, actuated_velocities
 
 PERIOD = 0.0025
 MODEL = robot_alone(JVRC1)

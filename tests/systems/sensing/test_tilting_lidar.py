@@ -19,10 +19,14 @@ from pydrake.systems.primitives import (
 )
 from pydrake.trajectories import PiecewisePolynomial
 
-from models.room import RoomParams
-from models.solids import triangle_mesh, upright_pose
-from systems.sensing.tilting_lidar import TiltingLidar, TiltingLidarParams, measure
-from systems.values import LaserScan
+from footfall.models.scenes.room import RoomParams
+from footfall.models.scenes.solids import triangle_mesh, upright_pose
+from footfall.models.values.perceived import LaserScan
+from footfall.systems.sensing.tilting_lidar import (
+    TiltingLidar,
+    TiltingLidarParams,
+    measure,
+)
 
 POSES = [RigidTransform(), upright_pose(z=1.5)]
 

@@ -5,10 +5,11 @@ from pydrake.multibody.plant import AddMultibodyPlant, MultibodyPlantConfig
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import DiagramBuilder
 
-from models.jvrc1 import JVRC1
-from models.robot_loader import add_robot
-from systems.ports import Vector, eval_vector
-from systems.sensing.wanted_torque import WantedTorque, servo_torque
+from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.robots.robot_loader import add_robot
+from footfall.models.values.vector import Vector
+from footfall.systems.ports import eval_vector
+from footfall.systems.sensing.wanted_torque import WantedTorque, servo_torque
 
 
 def test_the_law_of_a_servo() -> None:

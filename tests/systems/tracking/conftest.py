@@ -8,10 +8,10 @@ from pydrake.geometry import SceneGraph
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.systems.framework import Context
 
-from models.jvrc1 import JVRC1
-from models.robot_loader import add_robot
-from systems.ports import Vector
-from systems.tracking.whole_body_ik import (
+from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.robots.robot_loader import add_robot
+from footfall.models.values.vector import Vector
+from footfall.systems.tracking.whole_body_ik import (
     IkParams,
     IkTarget,
     WholeBodyIk,

@@ -7,10 +7,11 @@ import pytest
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import Context
 
-from models.jvrc1 import JVRC1
-from systems.ports import Vector, eval_vector
-from systems.tracking.ik_tracker import IkTracker
-from systems.tracking.whole_body_ik import IkParams, WholeBodyIk, integrate
+from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.values.vector import Vector
+from footfall.systems.ports import eval_vector
+from footfall.systems.tracking.ik_tracker import IkTracker
+from footfall.systems.tracking.whole_body_ik import IkParams, WholeBodyIk, integrate
 
 PORTS = ("positions", "velocities", "accelerations", "joint_references")
 

@@ -6,14 +6,15 @@ from pydrake.math import RigidTransform, RollPitchYaw
 from pydrake.multibody.tree import JacobianWrtVariable
 from pydrake.systems.framework import Context
 
-from models.jvrc1 import JVRC1
-from systems.ports import Vector, eval_vector
-from systems.tracking.whole_body_feedforward import (
+from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.values.feet import FEET
+from footfall.models.values.vector import Vector
+from footfall.systems.ports import eval_vector
+from footfall.systems.tracking.whole_body_feedforward import (
     WholeBodyFeedforward,
     momentum_rate,
     needed_forces,
 )
-from systems.values import FEET
 
 WEIGHT = 62.4 * 9.81
 

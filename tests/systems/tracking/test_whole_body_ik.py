@@ -7,9 +7,10 @@ import pytest
 from pydrake.math import RigidTransform, RollPitchYaw, RotationMatrix
 from pydrake.solvers import ClarabelSolver, MathematicalProgram
 
-from models.jvrc1 import JVRC1
-from systems.ports import Vector
-from systems.tracking.whole_body_ik import (
+from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.values.feet import FEET
+from footfall.models.values.vector import Vector
+from footfall.systems.tracking.whole_body_ik import (
     IkParams,
     IkTarget,
     WholeBodyIk,
@@ -18,7 +19,6 @@ from systems.tracking.whole_body_ik import (
     rotation_error,
     spin_of,
 )
-from systems.values import FEET
 
 STEP = 1e-6
 MOVING = {

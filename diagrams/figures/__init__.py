@@ -1,0 +1,1 @@
+"""What draws: figures, film strips, replays and block diagrams of runs."""

@@ -1,0 +1,311 @@
+"""The figures of a run."""
+
+from collections.abc import Callable, Mapping
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.patches import Polygon
+
+from footfall.diagrams.figures.crossing_data import CrossingData, read_crossings
+from footfall.diagrams.figures.crossing_figures import (
+    adaptation_figure,
+    ahead_figure,
+    sideways_figure,
+)
+from footfall.diagrams.figures.figure_parts import (
+    COLORS,
+    COM,
+    DCM,
+    SUPPORT,
+    ZMP,
+    legend_outside,
+    new_figure,
+    plot_column,
+    reference_signal,
+    set_title,
+    shade_activities,
+    support_edges,
+    true_zmp,
+)
+from footfall.diagrams.figures.room_view import draw_room
+from footfall.diagrams.figures.stick_diagram import stick_diagram
+from footfall.diagrams.figures.transverse_view import transverse_view
+from footfall.diagrams.judge.measures import contact_intervals
+from footfall.diagrams.run_data import RunData, read_run_data
+from footfall.diagrams.signal_files import whole_file
+from footfall.diagrams.signal_names import POLYGON_SIGNAL
+from footfall.models.scenes.staircase import Tread
+from footfall.models.values.feet import FEET, Foot
+from footfall.models.values.vector import Vector
+
+FIGURES_FOLDER = "figures"
+DPI = 120
+TREAD = "#c2a06e"
+CROSSING_FIGURES: dict[str, Callable[[CrossingData], Figure]] = {
+    "fig5_stick_diagram": stick_diagram,
+    "fig7_adaptation": adaptation_figure,
+    "fig8_ahead": ahead_figure,
+    "fig9_sideways": sideways_figure,
+}
+"""By the obstacle paper's numbers."""
+SHOWN_JOINTS = 6
+"""How many joints have a colour of their own; the others are grey."""
+
+
+def plot_run(folder: Path) -> list[Path]:
+    """Draws the figures of a run into its folder `figures`; gives their paths.
+
+    `balance.png` CoM, DCM and ZMP over time against the support; `top_view.png` treads,
+    boxes, path, footsteps and CoM from above; `side_view.png` how the feet passed the
+    steps; `static_stability.png` where the CoM might rest, as in the stair paper's
+    Fig. 7; `feet.png` heights of and forces on the feet; `joints.png` torques and
+    speeds as shares of their limits. What was not logged is left out of them.
+
+    Where obstacles were crossed, the obstacle paper's figures are added:
+    `fig5_stick_diagram.png`, `fig7_adaptation.png`, `fig8_ahead.png` and
+    `fig9_sideways.png`.
+
+    Raises:
+        RunError: the folder holds no run, or one without the plant's state.
+        ScenarioError: its scenario cannot be read.
+    """
+    data = read_run_data(folder)
+    figures: dict[str, Callable[[RunData], Figure]] = {
+        "top_view": top_view,
+        "joints": joints_figure,
+        "feet": feet_figure,
+        "balance": balance_figure,
+    }
+    if data.treads:
+        figures["side_view"] = side_view
+    if data.treads and POLYGON_SIGNAL in data.run.value_names:
+        figures["static_stability"] = transverse_view
+    crossings = read_crossings(data)
+    if crossings is not None:
+        for name, draw_crossing in CROSSING_FIGURES.items():
+            figures[name] = partial(_draw_crossing, draw_crossing, crossings)
+    target = folder / FIGURES_FOLDER
+    target.mkdir(exist_ok=True)
+    paths = []
+    for name, draw in figures.items():
+        path = target / f"{name}.png"
+        canvas = FigureCanvasAgg(draw(data))
+        canvas.figure.set_dpi(DPI)
+        with whole_file(path) as partial_path:
+            canvas.print_png(str(partial_path))  # type: ignore[no-untyped-call]
+        paths.append(path)
+    return paths
+
+
+def _draw_crossing(
+    draw: Callable[[CrossingData], Figure], crossings: CrossingData, _: RunData
+) -> Figure:
+    return draw(crossings)
+
+
+def balance_figure(data: RunData) -> Figure:
+    """CoM, DCM and ZMP along x and y over time, with the edges of the support."""
+    figure = new_figure(11.0, 7.0)
+    axes = figure.subplots(2, 1, sharex=True)
+    time, motion = data.motion.time, data.motion
+    measured_dcm = data.signal("balance_state.dcm")
+    zmp = true_zmp(data)
+    for axis, (ax, letter) in enumerate(zip(axes, "xy", strict=True)):
+        shade_activities(ax, data)
+        low, high = support_edges(data, np.eye(2)[axis])
+        ax.fill_between(time, low, high, color=SUPPORT, lw=0, label="support")
+        if zmp is not None:
+            ax.plot(time, zmp[:, axis], color=ZMP, lw=0.9, label="ZMP")
+        plot_column(ax, reference_signal(data, "zmp"), axis, ZMP, "ZMP wanted")
+        if measured_dcm is not None:
+            plot_column(ax, measured_dcm, axis, DCM, "DCM", dashed=False)
+        plot_column(ax, reference_signal(data, "dcm"), axis, DCM, "DCM wanted")
+        ax.plot(time, motion.com[:, axis], color=COM, lw=1.4, label="CoM")
+        plot_column(ax, reference_signal(data, "com"), axis, COM, "CoM wanted")
+        ax.set_ylabel(f"{letter} [m]")
+        ax.grid(alpha=0.3)
+    legend_outside(axes[0])
+    axes[1].set_xlabel("time [s]")
+    set_title(figure, data, "balance")
+    return figure
+
+
+def top_view(data: RunData) -> Figure:
+    """Treads, boxes, trees, path, footsteps, CoM and ZMP from above."""
+    figure = new_figure(11.0, 6.5)
+    ax = figure.subplots()
+    draw_room(ax, data.run)
+    for tread in data.treads:
+        _draw_rectangle(ax, tread)
+    for foot in FEET:
+        corners = data.motion.sole_corners[foot]
+        for index in _standing_samples(data, foot):
+            outline = corners[index][:, :2]
+            ax.add_patch(Polygon(outline, fc=COLORS[foot], ec=COLORS[foot], alpha=0.25))
+            ax.add_patch(Polygon(outline, fill=False, ec=COLORS[foot], lw=1.0))
+        ax.plot([], [], color=COLORS[foot], lw=6, alpha=0.4, label=f"{foot} sole")
+    zmp = true_zmp(data)
+    if zmp is not None:
+        ax.plot(*zmp.T, color=ZMP, lw=0.8, alpha=0.8, label="ZMP")
+    ax.plot(*data.motion.com[:, :2].T, color=COM, lw=1.5, label="CoM")
+    ax.set_aspect("equal", adjustable="datalim")
+    ax.autoscale_view()
+    ax.set_xlabel("x [m]")
+    ax.set_ylabel("y [m]")
+    ax.grid(alpha=0.3)
+    legend_outside(ax)
+    set_title(figure, data, "from above")
+    return figure
+
+
+def side_view(data: RunData) -> Figure:
+    """Paths of toes and heels over the profile of the stairs."""
+    figure = new_figure(11.0, 6.5)
+    ax = figure.subplots()
+    X_RW = data.treads[0].X_WR.inverse()
+    offset = data.treads[0].size[0] / 2.0
+
+    def along(points: Vector) -> tuple[Vector, Vector]:
+        """Distance from the first riser and height."""
+        p_R = np.array(X_RW.multiply(points.T))
+        return p_R[0] + offset, points[:, 2]
+
+    corners = np.stack([data.motion.sole_corners[foot] for foot in FEET])
+    begin = min(along(corners[:, 0].reshape(-1, 3))[0].min() - 0.1, -0.3)
+    profile = [(begin, 0.0), (0.0, 0.0)]
+    for tread in data.treads:
+        centre = np.array(tread.X_WR.translation())[None]
+        middle, half, height = along(centre)[0][0], tread.size[0] / 2.0, centre[0, 2]
+        profile += [(middle - half, height), (middle + half, height)]
+    ground = np.array(profile)
+    ax.fill_between(ground[:, 0], ground[:, 1], -0.05, color=TREAD, alpha=0.5, lw=0)
+    ax.plot(*ground.T, color="#7a5c2e", lw=1.2)
+    for foot in FEET:
+        sole = data.motion.sole_corners[foot]
+        toe, heel = sole[:, [1, 2]].mean(axis=1), sole[:, [0, 3]].mean(axis=1)
+        ax.plot(*along(toe), color=COLORS[foot], lw=1.3, label=f"{foot} toe")
+        ax.plot(*along(heel), color=COLORS[foot], lw=0.9, ls=":", label=f"{foot} heel")
+        for index in _standing_samples(data, foot):
+            ends = np.stack([heel[index], toe[index]])
+            ax.plot(*along(ends), color=COLORS[foot], lw=4, alpha=0.5)
+    ax.plot(*along(data.motion.com), color=COM, lw=1.3, label="CoM")
+    ax.set_aspect("equal", adjustable="datalim")
+    ax.set_xlabel("along the stairs from the first riser [m]")
+    ax.set_ylabel("height [m]")
+    ax.grid(alpha=0.3)
+    legend_outside(ax)
+    set_title(figure, data, "from the side")
+    return figure
+
+
+def feet_figure(data: RunData) -> Figure:
+    """Heights of the soles, and the forces on them."""
+    figure = new_figure(11.0, 7.0)
+    heights, forces = figure.subplots(2, 1, sharex=True)
+    time = data.motion.time
+    for ax in (heights, forces):
+        shade_activities(ax, data)
+        ax.grid(alpha=0.3)
+    for tread in data.treads:
+        height = float(tread.X_WR.translation()[2])
+        heights.axhline(height, color=TREAD, lw=1.5, zorder=0)
+    for foot in FEET:
+        color = COLORS[foot]
+        lowest = data.motion.sole_corners[foot][:, :, 2].min(axis=1)
+        heights.plot(time, lowest, color=color, lw=1.3, label=f"{foot} sole, lowest")
+        if data.wrenches is not None:
+            share = data.wrenches[foot][:, 2] / data.limits.weight
+            forces.plot(time, share, color=color, lw=1.0, label=f"{foot} foot")
+    heights.set_ylabel("height [m]")
+    forces.set_ylabel("normal force [body weights]")
+    forces.set_xlabel("time [s]")
+    legend_outside(heights)
+    if data.wrenches is None:
+        forces.text(0.5, 0.5, "not logged", transform=forces.transAxes, ha="center")
+    else:
+        legend_outside(forces)
+    set_title(figure, data, "feet")
+    return figure
+
+
+def joints_figure(data: RunData) -> Figure:
+    """Torques and speeds of all joints as shares of their limits."""
+    figure = new_figure(11.0, 7.0)
+    torques, speeds = figure.subplots(2, 1, sharex=True)
+    logged = data.signal("plant.net_actuation")
+    limits = data.limits
+    series: dict[str, Vector] = {}
+    torque_time = np.zeros(0)
+    if logged is not None:
+        samples = logged.to_numpy(dtype=np.float64)
+        torque_time = samples[:, 0]
+        series = dict(zip(limits.torque, samples[:, 1:].T, strict=True))
+    torque = {joint: values / limits.torque[joint] for joint, values in series.items()}
+    speed = {joint: v / limits.speed[joint] for joint, v in data.velocities.items()}
+    shown = [*_extreme_joints(torque), *_extreme_joints(speed)]
+    colors = {joint: f"C{index}" for index, joint in enumerate(dict.fromkeys(shown))}
+    _shares(torques, data, torque_time, torque, colors, "torque / limit")
+    _shares(speeds, data, data.motion.time, speed, colors, "speed / limit")
+    speeds.set_xlabel("time [s]")
+    set_title(figure, data, "joints")
+    return figure
+
+
+def _extreme_joints(shares: Mapping[str, Vector]) -> list[str]:
+    """The joints that came nearest to their limits, the nearest first."""
+    order = sorted(shares, key=lambda joint: -float(np.abs(shares[joint]).max()))
+    return order[:SHOWN_JOINTS]
+
+
+def _shares(
+    ax: Axes,
+    data: RunData,
+    time: Vector,
+    shares: Mapping[str, Vector],
+    colors: Mapping[str, str],
+    label: str,
+) -> None:
+    """The joints nearest to their limits in colour, the others in grey."""
+    shade_activities(ax, data)
+    extreme = _extreme_joints(shares)
+    for joint in shares.keys() - set(extreme):
+        ax.plot(time, shares[joint], color="#ced4da", lw=0.6, zorder=1)
+    for joint in extreme:
+        peak = float(np.abs(shares[joint]).max())
+        ax.plot(
+            time,
+            shares[joint],
+            color=colors[joint],
+            lw=0.9,
+            label=f"{joint} {peak:.2f}",
+        )
+    for limit in (-1.0, 1.0):
+        ax.axhline(limit, color="#c92a2a", lw=1.0, ls="--")
+    ax.set_ylim(-1.15, 1.15)
+    ax.set_ylabel(label)
+    ax.grid(alpha=0.3)
+    legend_outside(ax)
+
+
+def _standing_samples(data: RunData, foot: Foot) -> list[int]:
+    """A sample in the middle of every contact of a foot."""
+    if data.wrenches is None:
+        return [0, len(data.motion.time) - 1]
+    force = data.wrenches[foot][:, 2]
+    return [
+        (interval.start + interval.end) // 2
+        for interval in contact_intervals(force, data.limits.weight)
+    ]
+
+
+def _draw_rectangle(ax: Axes, tread: Tread) -> None:
+    half = tread.size / 2.0
+    signs = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
+    corners = np.array(tread.X_WR.multiply((signs * [*half, 0.0]).T)).T
+    ax.add_patch(
+        Polygon(corners[:, :2], fc=TREAD, ec="#7a5c2e", alpha=0.35, lw=1.0, zorder=0)
+    )

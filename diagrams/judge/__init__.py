@@ -1,0 +1,1 @@
+"""The judge of a run: evidence, measures, rules, outcome and summary."""

@@ -1,0 +1,212 @@
+"""The judge: what became of a task, from what truly happened.
+
+It sees the plant's true state, the true contacts and the true scene; of what the
+controller believes it takes only that it stopped, and why.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from footfall.diagrams.judge.evidence import Evidence, Stop
+from footfall.diagrams.judge.evidence_measures import (
+    climb_time,
+    com_error,
+    crossing_figures,
+    dcm_error,
+    foot_contacts,
+    footsteps,
+    goal_error,
+    largest_friction_ratio,
+    largest_impact,
+    largest_slip,
+    min_static_margin,
+    min_zmp_margin,
+    steps_climbed,
+)
+from footfall.diagrams.judge.evidence_signals import (
+    CLIMBING,
+    fall,
+    foot_loads,
+    foot_wrenches,
+    last_ground,
+)
+from footfall.diagrams.judge.falls import Fall
+from footfall.diagrams.judge.joint_figures import (
+    by_joint,
+    joint_peaks,
+    sample_period,
+    time_at_limit,
+    worst_fraction,
+)
+from footfall.diagrams.judge.rest import rest_faults, rest_figures
+from footfall.diagrams.judge.rules import SLIP_MENTIONED, broken_rules, missing_evidence
+from footfall.models.values.feet import Foot
+from footfall.models.values.value import Json
+from footfall.models.values.vector import Vector
+
+Outcome: TypeAlias = Literal[
+    "completed", "failed", "fell", "infeasible", "timed_out", "interrupted", "cut"
+]
+"""What can become of a task; see `judge`."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Judgement:
+    """What became of the task; a figure that was not measured is None."""
+
+    outcome: Outcome
+    reason: str
+    """In one line."""
+    footsteps: int | None = None
+    steps_climbed: int | None = None
+    max_torque_fraction: float | None = None
+    max_torque_joint: str | None = None
+    torque_limit_s: float | None = None
+    """For how long any joint's torque was at its limit, where the plant clips it."""
+    torque_limit_joint: str | None = None
+    """Which joint's was most often."""
+    max_wanted_torque_fraction: float | None = None
+    """Largest torque that a servo wanted, before clipping, over its limit."""
+    max_wanted_torque_joint: str | None = None
+    max_speed_fraction: float | None = None
+    max_speed_joint: str | None = None
+    min_zmp_margin_m: float | None = None
+    min_static_margin_m: float | None = None
+    """Least signed distance of the true CoM to the edge of the static-stability polygon
+    of the soles that truly bear weight; below zero while a dynamic motion passes over
+    an edge."""
+    max_dcm_error_m: float | None = None
+    com_rms_error_m: float | None = None
+    max_foot_slip_m: float | None = None
+    max_impact_body_weights: float | None = None
+    """Largest upward force on a foot, averaged over 10 ms."""
+    max_friction_ratio: float | None = None
+    """Largest horizontal over upward force of a loaded foot, both averaged over
+    10 ms."""
+    min_self_distance_m: float | None = None
+    """Nearest that two of the robot's own bodies came; None where none came near."""
+    min_self_distance_bodies: tuple[str, str] | None = None
+    min_clearance_m: float | None = None
+    goal_error_m: float | None = None
+    """Horizontal distance of the feet's midpoint to the goal at the end."""
+    goal_turn_rad: float | None = None
+    """How far the feet's mean heading is from the goal's at the end."""
+    climb_time_s: float | None = None
+    """From the first motion until the last foot came to stand on the top tread: the
+    time spent moving alone, without scanning, planning and coming to rest."""
+    obstacles_crossed: int | None = None
+    crossing_time_s: float | None = None
+    """Phases 1 to 3 over an obstacle, the longest: from the first foot's lift-off to
+    the second's touch-down, all that the robot does in between included."""
+    crossing_impact_body_weights: float | None = None
+    """Largest upward force, averaged over 10 ms, on a foot as it lands beyond an
+    obstacle."""
+    min_clearance_body: str | None = None
+    """Which part of the robot came nearest to an obstacle."""
+    crossing: Mapping[str, Json] | None = None
+    """What the planner says of its crossings."""
+
+
+def judge(evidence: Evidence) -> Judgement:
+    """Measures the run and says what became of the task.
+
+    - "completed": the executive finished, the robot came to rest where the task ends
+      (see `rest_faults`) and no rule was broken (see `broken_rules`).
+    - "failed": the executive finished, but it did not rest or a rule was broken.
+    - "fell": at any time (see `find_fall`).
+    - "infeasible": a planner refused.
+    - "timed_out": the time was up.
+    - "interrupted": the user ended it.
+    - "cut": the simulation broke off, or its process was killed.
+
+    The reason of a run that did not finish also names the rules that it broke.
+    """
+    wrenches = foot_wrenches(evidence)
+    loads = foot_loads(evidence)
+    contacts = foot_contacts(evidence, wrenches)
+    limits, state_period = evidence.limits, sample_period(evidence)
+    torques = by_joint(evidence, "plant.net_actuation")
+    torque = worst_fraction(torques, limits.torque)
+    wanted = worst_fraction(by_joint(evidence, "station.torque_wanted"), limits.torque)
+    clipped = time_at_limit(torques, limits.torque, state_period)
+    speed = worst_fraction(joint_peaks(evidence), limits.speed)
+    slip = largest_slip(evidence, wrenches)
+    outcome, reason = _verdict(evidence, loads, speed, slip)
+    nearest = evidence.self_distance
+    return Judgement(
+        outcome=outcome,
+        reason=reason,
+        footsteps=None if contacts is None else footsteps(evidence, contacts),
+        steps_climbed=steps_climbed(evidence, loads),
+        max_torque_fraction=torque[0],
+        max_torque_joint=torque[1],
+        torque_limit_s=clipped[0],
+        torque_limit_joint=clipped[1],
+        max_wanted_torque_fraction=wanted[0],
+        max_wanted_torque_joint=wanted[1],
+        max_speed_fraction=speed[0],
+        max_speed_joint=speed[1],
+        min_zmp_margin_m=min_zmp_margin(evidence, wrenches),
+        min_static_margin_m=min_static_margin(evidence, loads),
+        max_dcm_error_m=dcm_error(evidence),
+        com_rms_error_m=com_error(evidence),
+        max_foot_slip_m=slip,
+        max_impact_body_weights=largest_impact(evidence),
+        max_friction_ratio=largest_friction_ratio(evidence),
+        min_self_distance_m=None if nearest is None else nearest.distance,
+        min_self_distance_bodies=None if nearest is None else nearest.bodies,
+        **crossing_figures(evidence, wrenches),
+        goal_error_m=None if evidence.goal is None else goal_error(evidence)[0],
+        goal_turn_rad=None if evidence.goal is None else goal_error(evidence)[1],
+        climb_time_s=climb_time(evidence, contacts),
+    )
+
+
+def _verdict(
+    evidence: Evidence,
+    loads: dict[Foot, Vector] | None,
+    speed: tuple[float | None, str | None],
+    slip: float | None,
+) -> tuple[Outcome, str]:
+    fallen = fall(evidence)
+    if fallen is not None or evidence.stop == "fell":
+        return "fell", _fall_reason(evidence, fallen)
+    rules = broken_rules(evidence, speed, slip)
+    if evidence.stop != "finished":
+        reason = "; besides, ".join([evidence.stop_reason, *rules[:1]])
+        return STOPPED[evidence.stop], "; ".join([reason, *rules[1:]])
+    ground = last_ground(evidence)
+    rules += missing_evidence(evidence, speed[0], slip)
+    figures = rest_figures(evidence.motion, loads, evidence.limits.weight, ground)
+    unrest = rest_faults(figures, ground)
+    if unrest:
+        rules = [f"the robot did not come to rest: {', '.join(unrest)}", *rules]
+    if rules:
+        return "failed", "; ".join(rules)
+    done = "the robot rests on the floor"
+    if evidence.kind == CLIMBING:
+        done = f"both feet rest on {ground.name}, number {len(evidence.treads)}"
+    elif evidence.goal is not None:
+        done = f"the robot rests {100.0 * goal_error(evidence)[0]:.1f} cm from the goal"
+    if slip is not None and slip > SLIP_MENTIONED:
+        done += f"; a loaded foot slid by {1e3 * slip:.0f} mm"
+    return "completed", done
+
+
+STOPPED: dict[Stop, Outcome] = {
+    "infeasible": "infeasible",
+    "time limit": "timed_out",
+    "interrupted": "interrupted",
+    "error": "cut",
+}
+"""What becomes of a task that neither finished nor fell, by why it stopped."""
+
+
+def _fall_reason(evidence: Evidence, fallen: Fall | None) -> str:
+    if fallen is None:
+        return evidence.stop_reason
+    reason = f"the robot fell at {fallen.time:.2f} s: {fallen.how}"
+    if evidence.stop in ("fell", "finished"):
+        return reason
+    return f"{reason}; {evidence.stop_reason}"

@@ -1,0 +1,1 @@
+"""Robots: their descriptions, and what Drake simulates of them."""

@@ -1,0 +1,1 @@
+"""Scenes: staircases, obstacles and rooms as solids."""

@@ -1,0 +1,110 @@
+"""A straight staircase from its few dimensions."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from pydrake.math import RigidTransform
+
+from footfall.models.robots.contact_geometry import GREATEST_FRICTION
+from footfall.models.scenes.solid_names import STAIRCASE
+from footfall.models.scenes.solids import Box, Rgba, upright_pose
+from footfall.models.values.validation import Parameters, number
+from footfall.models.values.value import Value
+from footfall.models.values.vector import Vector
+
+COLOR: Rgba = (0.76, 0.62, 0.42, 1.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Tread(Value):
+    """The true upper face of one step."""
+
+    name: str
+    """The solid that it belongs to, e.g. "staircase/step_2"."""
+    X_WR: RigidTransform
+    """Pose of the rectangle: origin at its centre, x up the stairs, z out of it."""
+    size: Vector
+    """Depth along x and width along y, (2,), m."""
+
+
+@dataclass(kw_only=True)
+class StaircaseParams(Parameters):
+    """A straight staircase standing on the floor z = 0."""
+
+    steps: int = number(3, least=1, most=100)
+    """How many risers, and as many treads."""
+    rise: float = number(0.20, "m", above=0.0)
+    """Height of each step, m (stair paper, experiment 1)."""
+    run: float = number(0.27, "m", above=0.0)
+    """Depth of each tread, the top one included, m (stair paper, experiment 1)."""
+    width: float = number(0.50, "m", above=0.0)
+    """Width across, m (stair paper, experiment 1)."""
+    closed_risers: bool = True
+    """Whether each step is solid down to the floor, or a plate with air beneath."""
+    tread_thickness: float = number(0.04, "m", above=0.0)
+    """Thickness of the plates where the risers are open, m."""
+    friction: float = number(0.8, above=0.0, below=GREATEST_FRICTION)
+    """Coulomb friction coefficient between the treads and a sole."""
+    x: float = number(0.6, "m")
+    """Where the foot of the first riser has its middle, along x of W, m."""
+    y: float = number(0.0, "m")
+    """The same along y of W, m."""
+    yaw: float = number(0.0, "rad")
+    """Direction in which the stairs go up, about z of W from its x, rad."""
+
+    def validate(self) -> None:
+        """Checks every field, and those that concern each other.
+
+        Raises:
+            ValueError: "field: reason, got x" for the first field that is wrong.
+        """
+        super().validate()
+        if not self.closed_risers and self.tread_thickness >= self.rise:
+            raise ValueError(
+                "tread_thickness: must be less than the rise where risers are open, "
+                f"got {self.tread_thickness:g} m at a rise of {self.rise:g} m"
+            )
+
+    def X_WS(self) -> RigidTransform:
+        """Pose of the staircase frame S: at the foot of the first riser, x up."""
+        return upright_pose(x=self.x, y=self.y, yaw=self.yaw)
+
+    def solids(self) -> tuple[Box, ...]:
+        """A box a step, lowest first, named "staircase/step_1" and so on.
+
+        A closed step spans its own run from the floor up, so that boxes touch without
+        overlapping; an open one is a plate under its tread.
+
+        Raises:
+            ValueError: a field is wrong; see `validate`.
+        """
+        boxes = []
+        for tread in self.treads():
+            top = float(tread.X_WR.translation()[2])
+            height = top if self.closed_risers else self.tread_thickness
+            X_RB = upright_pose(z=-height / 2.0)
+            size = np.array([*tread.size, height])
+            boxes.append(
+                Box(tread.name, tread.X_WR.multiply(X_RB), size, self.friction, COLOR)
+            )
+        return tuple(boxes)
+
+    def treads(self) -> tuple[Tread, ...]:
+        """The true treads, lowest first.
+
+        Raises:
+            ValueError: a field is wrong; see `validate`.
+        """
+        self.validate()
+        X_WS = self.X_WS()
+        size = np.array([self.run, self.width])
+        return tuple(
+            Tread(
+                f"{STAIRCASE}step_{step}",
+                X_WS.multiply(
+                    upright_pose(x=(step - 0.5) * self.run, z=step * self.rise)
+                ),
+                size,
+            )
+            for step in range(1, self.steps + 1)
+        )

@@ -1,0 +1,1 @@
+"""Values that travel on ports, and the checks of parameters."""

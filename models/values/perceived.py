@@ -1,0 +1,74 @@
+"""Values that perception puts on its ports: scan lines, planes, stairs."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from pydrake.math import RigidTransform
+
+from footfall.models.values.value import Value
+from footfall.models.values.vector import Vector
+
+
+@dataclass(frozen=True, eq=False)
+class LaserScan(Value):
+    """One line of a scanner on a tilt servo."""
+
+    time: float
+    """When the line was taken, s."""
+    tilt: float
+    """Angle of the tilt servo, rad; positive looks down."""
+    ranges: Vector
+    """Measured ranges, (n,), m, in the order of the beams; inf where nothing was
+    hit, nan where the return was below the least range."""
+
+
+@dataclass(frozen=True, eq=False)
+class PlaneSegment(Value):
+    """A bounded patch of plane that was seen."""
+
+    polygon: Vector
+    """Convex outline of the supporting points, (n, 3), m, counter-clockwise seen from
+    the side its normal points to."""
+    X_WR: RigidTransform
+    """Pose of the oriented rectangle R: origin at its centre, z along the normal, x
+    along the side named first in `size`."""
+    size: Vector
+    """Side lengths of the rectangle along R's x and y, (2,), m."""
+    normal: Vector
+    """Unit normal, (3,), pointing up."""
+    area: float
+    """Area of the supporting voxels, m^2."""
+    support_count: int
+    """How many points support the plane."""
+
+    def corners(self) -> Vector:
+        """The rectangle's corners in W, (4, 3), m, counter-clockwise from above."""
+        half = self.size / 2.0
+        signs = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+        p_R = np.hstack([signs * half, np.zeros((4, 1))])
+        return np.array(self.X_WR.multiply(p_R.T)).T
+
+
+@dataclass(frozen=True, eq=False)
+class Staircase(Value):
+    """The treads that were found, lowest first, with the ground in front of them."""
+
+    treads: tuple[PlaneSegment, ...] = ()
+    """Treads from the lowest to the highest; R's x points up the stairs, so `size` is
+    (depth, width)."""
+    floor: PlaneSegment | None = None
+    """The horizontal plane that the staircase rises from, where it was seen."""
+
+
+@dataclass(frozen=True, eq=False)
+class PlaneSegmentation(Value):
+    """What one cloud says about horizontal planes."""
+
+    planes: tuple[PlaneSegment, ...] = ()
+    """Every horizontal plane segment large enough for a foot, largest first."""
+    staircase: Staircase = field(default_factory=Staircase)
+    """The cluster of planes of like size that makes up the staircase."""
+    times_ms: tuple[tuple[str, float], ...] = ()
+    """Wall time of each stage, (stage, ms), in order."""
+    sensed_at: float | None = None
+    """When the work on its sweep began, s; None for a cloud without a time."""

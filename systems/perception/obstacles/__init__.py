@@ -1,0 +1,1 @@
+"""Obstacles and boxes: clusters of points, and their solids."""

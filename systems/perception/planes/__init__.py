@@ -1,0 +1,1 @@
+"""Planes and stairs in point clouds (stair paper, Secs. 3 to 5)."""

@@ -1,0 +1,322 @@
+"""Plane segments and the staircase of a cloud, stage by stage.
+
+Stair paper (Zhang, Caron, Nakamura 2016), Sec. 4 and Table 1. Every stage is a pure
+function whose result can be looked at; `segment_planes` calls them in turn.
+"""
+
+from dataclasses import dataclass
+from time import perf_counter
+
+import numpy as np
+from numpy.typing import NDArray
+
+from footfall.models.robots.robot import Sole
+from footfall.models.values.perceived import PlaneSegmentation, Staircase
+from footfall.models.values.vector import Vector
+from footfall.systems.perception.planes.normals import (
+    estimate_normals,
+    filter_slopes,
+    gravity_aligned_rotation,
+    orient_normals,
+)
+from footfall.systems.perception.planes.planes import (
+    FittedPlane,
+    Patch,
+    assign_support,
+    make_patches,
+    ransac_planes,
+)
+from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterParams
+from footfall.systems.perception.planes.segments import patch_segment, tread_segment
+from footfall.systems.perception.planes.stair_chain import (
+    floor_below,
+    join_parts,
+    largest_size_cluster,
+    longest_chain,
+    tread_candidates,
+)
+from footfall.systems.perception.planes.supervoxels import (
+    Supervoxels,
+    cluster_supervoxels,
+    filter_small,
+    merge_supervoxels,
+)
+from footfall.systems.perception.planes.treads import Tread, refine_treads
+from footfall.systems.perception.planes.voxels import (
+    VoxelGrid,
+    adjacent_voxels,
+    filter_sparse,
+    keep_pairs,
+    usable_points,
+    voxelize,
+)
+
+DOWN = np.array([0.0, 0.0, -1.0])
+"""Gravity's direction in the gravity-aligned frame G that the stages work in."""
+
+
+@dataclass(frozen=True, eq=False)
+class LevelVoxels:
+    """What Filters 1 and 2 leave: C of Algorithm 1, and where it came from."""
+
+    points: Vector
+    """Representative points, (m, 3), m."""
+    normals: Vector
+    """Their unit normals, (m, 3)."""
+    pairs: NDArray[np.int64]
+    """Adjacent ones, (p, 2)."""
+    grid: VoxelGrid
+    """The voxels before the filters."""
+    member: NDArray[np.int64]
+    """Index in the grid of each of the m."""
+    grid_pairs: NDArray[np.int64]
+    """Adjacent voxels of the grid, (q, 2)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Stages:
+    """Intermediate results, in the gravity-aligned frame G."""
+
+    R_GW: Vector
+    """Rotation from the cloud's frame into G, (3, 3)."""
+    cloud: Vector
+    """The usable points, (n, 3), m."""
+    voxels: LevelVoxels
+    """After Filters 1 and 2."""
+    supervoxels: Supervoxels
+    """Over-segmentation of the voxels."""
+    clusters: NDArray[np.int64]
+    """Cluster of each voxel after Filter 3; -1 for none."""
+    planes: tuple[FittedPlane, ...]
+    """What RANSAC found."""
+    patches: tuple[Patch, ...]
+    """The planes, bounded."""
+
+
+def filter_level(
+    cloud: Vector, params: PlaneSegmenterParams, viewpoint: Vector | None
+) -> LevelVoxels:
+    """Algorithm 1: normals, Filter 1, voxels, Filter 2.
+
+    Args:
+        cloud: finite points in G, (n, 3), m.
+        params: parameters.
+        viewpoint: where they were seen from, (3,), m.
+    """
+
+    def normals_of(points: Vector) -> Vector:
+        normals = estimate_normals(points, params.neighbors, params.threads)
+        return orient_normals(points, normals, DOWN, viewpoint)
+
+    if params.order == "normals_first":
+        normals = normals_of(cloud)
+        level = filter_slopes(normals, DOWN, params.slope_tolerance)
+        grid = voxelize(cloud, params.voxel_size)
+        occupied = voxelize(cloud[level], params.voxel_size)
+        source = np.flatnonzero(level)[occupied.representative]
+        voxel = grid.voxel_of_point[source]
+        own = adjacent_voxels(occupied)
+        kept = filter_sparse(own, len(source), params.min_neighbors)
+        return LevelVoxels(
+            points=cloud[source[kept]],
+            normals=normals[source[kept]],
+            pairs=keep_pairs(own, kept),
+            grid=grid,
+            member=voxel[kept],
+            grid_pairs=adjacent_voxels(grid),
+        )
+    grid = voxelize(cloud, params.voxel_size)
+    pairs = adjacent_voxels(grid)
+    normals = normals_of(grid.mean)
+    kept = filter_sparse(pairs, len(grid.keys), params.min_neighbors)
+    kept &= filter_slopes(normals, DOWN, params.slope_tolerance)
+    return LevelVoxels(
+        points=cloud[grid.representative[kept]],
+        normals=normals[kept],
+        pairs=keep_pairs(pairs, kept),
+        grid=grid,
+        member=np.flatnonzero(kept),
+        grid_pairs=pairs,
+    )
+
+
+def cluster_level(
+    voxels: LevelVoxels, params: PlaneSegmenterParams, sole: Sole
+) -> tuple[Supervoxels, NDArray[np.int64]]:
+    """Supervoxels, their clusters, and Filter 3.
+
+    Returns:
+        The supervoxels and the cluster of each voxel, (m,); -1 for none.
+    """
+    supervoxels = cluster_supervoxels(
+        voxels.points,
+        voxels.normals,
+        voxels.pairs,
+        seed_resolution=params.seed_resolution,
+        influence=params.influence,
+    )
+    clusters = merge_supervoxels(
+        supervoxels,
+        voxels.pairs,
+        angle=params.merge_angle,
+        offset=params.merge_offset,
+    )
+    return supervoxels, filter_small(clusters, params.voxel_size, sole.area)
+
+
+def fit_planes(
+    voxels: LevelVoxels,
+    clusters: NDArray[np.int64],
+    params: PlaneSegmenterParams,
+    sole: Sole,
+) -> tuple[FittedPlane, ...]:
+    """RANSAC planes within the slope tolerance, larger than a sole."""
+    of = clusters if params.planes_from == "clusters" else np.minimum(clusters, 0)
+    planes = ransac_planes(
+        voxels.points,
+        of,
+        tolerance=params.plane_tolerance,
+        min_inliers=params.min_voxels(sole),
+        rng=np.random.default_rng(params.seed),
+    )
+    if not planes:
+        return planes
+    normals = np.array([plane.normal for plane in planes])
+    level = filter_slopes(normals, DOWN, params.slope_tolerance)
+    return tuple(plane for plane, good in zip(planes, level, strict=True) if good)
+
+
+def bound_planes(
+    planes: tuple[FittedPlane, ...],
+    voxels: LevelVoxels,
+    cloud: Vector,
+    params: PlaneSegmenterParams,
+) -> tuple[Patch, ...]:
+    """Bounds the planes by the points of the cloud."""
+    owner = assign_support(
+        planes,
+        voxels.member,
+        voxels.grid.mean,
+        voxels.grid_pairs,
+        tolerance=params.plane_tolerance,
+        rings=2,
+    )
+    return make_patches(
+        planes,
+        owner,
+        voxels.grid.index,
+        voxels.grid.voxel_of_point,
+        cloud,
+        voxel_size=params.voxel_size,
+        tolerance=params.plane_tolerance,
+    )
+
+
+def find_treads(
+    patches: tuple[Patch, ...],
+    cloud: Vector,
+    params: PlaneSegmenterParams,
+    viewpoint: Vector | None,
+) -> tuple[list[int], float, list[Tread], int | None]:
+    """The staircase among the patches.
+
+    Returns:
+        Indices of the treads' patches, lowest first; the staircase's yaw, rad; the
+        treads' rectangles in its frame; index of the floor's patch.
+    """
+    limits = params.stairs
+    level = [i for i, patch in enumerate(patches) if patch.extent[2] <= params.max_dz]
+    if params.staircase_from == "size_cluster":
+        extents = np.array([patches[i].extent for i in level]).reshape(-1, 3)
+        chosen = [
+            level[i] for i in largest_size_cluster(extents, limits.size_tolerance)
+        ]
+        chosen.sort(key=lambda i: float(patches[i].center[2]))
+    else:
+        candidates = tread_candidates(patches, limits, params.max_dz)
+        chosen = longest_chain(patches, candidates, limits)
+    if not chosen:
+        return [], 0.0, [], floor_below(patches, [], limits)
+    yaw, treads = refine_treads([patches[i] for i in chosen], cloud, viewpoint)
+    if params.staircase_from == "size_cluster":
+        return chosen, yaw, treads, floor_below(patches, chosen, limits)
+    if len(treads) > 1 and not treads[-1].ends:
+        # Of a tread, or a landing, that the view cuts off the size is unknown.
+        depths = [float(tread.high[0] - tread.low[0]) for tread in treads]
+        usual = float(np.median(depths[:-1]))
+        if abs(depths[-1] - usual) > limits.depth_tolerance * usual:
+            chosen, treads = chosen[:-1], treads[:-1]
+    if not treads[0].drops:
+        # Where nothing lower was seen before it, its end in the cloud is that of the
+        # view, not its edge: the floor, or the tread that the robot stands on.
+        return chosen[1:], yaw, treads[1:], chosen[0]
+    return chosen, yaw, treads, floor_below(patches, chosen, limits)
+
+
+def segment_planes(
+    points: Vector,
+    gravity: Vector,
+    params: PlaneSegmenterParams,
+    sole: Sole,
+    viewpoint: Vector | None = None,
+) -> tuple[PlaneSegmentation, Stages]:
+    """Plane segments of a cloud, and the staircase among them.
+
+    Args:
+        points: the cloud, (n, 3), m, in any frame W; points that are not finite are
+            left out. An empty cloud has an empty segmentation.
+        gravity: gravity in W, (3,), any length: it points down.
+        params: parameters.
+        sole: of the robot; what is smaller is no plane to stand on.
+        viewpoint: where the cloud was seen from, (3,), m. Without it normals are
+            turned up, so that a ceiling is a plane too.
+
+    Returns:
+        The segmentation, in W, and the intermediate results, in the gravity-aligned G.
+
+    Raises:
+        ValueError: gravity has no direction, points are not (n, 3).
+    """
+    if points.ndim != 2 or points.shape[1] != 3:
+        raise ValueError(f"points: must be (n, 3), got {points.shape}")
+    times: list[tuple[str, float]] = []
+    start = perf_counter()
+
+    def lap(stage: str) -> None:
+        nonlocal start
+        now = perf_counter()
+        times.append((stage, (now - start) * 1e3))
+        start = now
+
+    R_GW = gravity_aligned_rotation(gravity)
+    cloud = usable_points(np.asarray(points, dtype=np.float64)) @ R_GW.T
+    eye = None if viewpoint is None else R_GW @ viewpoint
+    voxels = filter_level(cloud, params, eye)
+    lap("filters")
+    supervoxels, clusters = cluster_level(voxels, params, sole)
+    lap("supervoxels")
+    planes = fit_planes(voxels, clusters, params, sole)
+    lap("planes")
+    patches = bound_planes(planes, voxels, cloud, params)
+    if params.staircase_from == "chain":
+        patches = join_parts(patches, params.stairs)
+    lap("boundaries")
+    chosen, yaw, treads, floor = find_treads(patches, cloud, params, eye)
+    segments = {i: patch_segment(patch, R_GW) for i, patch in enumerate(patches)}
+    for i, tread in zip(chosen, treads, strict=True):
+        segments[i] = tread_segment(tread, yaw, patches[i].area, R_GW)
+    if floor is not None and chosen:
+        segments[floor] = patch_segment(patches[floor], R_GW, yaw)
+    staircase = Staircase(
+        treads=tuple(segments[i] for i in chosen),
+        floor=None if floor is None else segments[floor],
+    )
+    lap("staircase")
+    segmentation = PlaneSegmentation(
+        planes=tuple(sorted(segments.values(), key=lambda item: -item.area)),
+        staircase=staircase,
+        times_ms=tuple(times),
+    )
+    return segmentation, Stages(
+        R_GW, cloud, voxels, supervoxels, clusters, planes, patches
+    )

@@ -1,0 +1,79 @@
+"""The plane segmentation as a system."""
+
+from pydrake.common.value import AbstractValue
+from pydrake.perception import PointCloud
+from pydrake.systems.framework import Context, LeafSystem
+
+from footfall.models.robots.robot import Sole
+from footfall.models.values.perceived import PlaneSegmentation
+from footfall.models.values.vector import Vector
+from footfall.systems.perception.planes.plane_segmentation import segment_planes
+from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterParams
+from footfall.systems.ports import eval_abstract, eval_vector
+from footfall.systems.timing import timed
+
+
+class PlaneSegmenter(LeafSystem):
+    """Finds the plane segments of a cloud and the staircase among them.
+
+    Stair paper (Zhang, Caron, Nakamura 2016), Sec. 4. The result is a cached output:
+    it is computed when the cloud, gravity or viewpoint changed and someone asks.
+
+    .. pydrake_system::
+
+        name: PlaneSegmenter
+        input_ports:
+        - cloud
+        - gravity
+        - viewpoint
+        output_ports:
+        - segmentation
+
+    - `cloud`: pydrake PointCloud in W, m; points that are not finite are left out.
+    - `gravity`: gravity in W, (3,), any length: it points down.
+    - `viewpoint`: p_WSensor, (3,), m, where the cloud was seen from; need not be
+      connected, but then normals are turned up, so that a ceiling is a plane too.
+    - `segmentation`: PlaneSegmentation in W; empty where the cloud is.
+    """
+
+    def __init__(self, sole: Sole, params: PlaneSegmenterParams | None = None) -> None:
+        """Declares the ports.
+
+        Args:
+            sole: of the robot; what is smaller is no plane to stand on.
+            params: parameters; None for the paper's.
+
+        Raises:
+            ValueError: a parameter makes no sense.
+        """
+        super().__init__()
+        self._params = params or PlaneSegmenterParams()
+        self._params.validate()
+        self._sole = sole
+        self._cloud = self.DeclareAbstractInputPort(
+            "cloud", AbstractValue.Make(PointCloud(0))
+        )
+        self._gravity = self.DeclareVectorInputPort("gravity", 3)
+        self._viewpoint = self.DeclareVectorInputPort("viewpoint", 3)
+        self.DeclareAbstractOutputPort(
+            "segmentation",
+            lambda: AbstractValue.Make(PlaneSegmentation()),
+            timed(self, self._calc_segmentation),  # type: ignore[arg-type]
+            prerequisites_of_calc={
+                self._cloud.ticket(),
+                self._gravity.ticket(),
+                self._viewpoint.ticket(),
+            },
+        )
+
+    def _calc_segmentation(self, context: Context, segmentation: AbstractValue) -> None:
+        cloud = eval_abstract(self._cloud, context, PointCloud)
+        points: Vector = cloud.xyzs().T.astype(float)
+        gravity = eval_vector(self._gravity, context)
+        viewpoint = (
+            eval_vector(self._viewpoint, context)
+            if self._viewpoint.HasValue(context)
+            else None
+        )
+        found, _ = segment_planes(points, gravity, self._params, self._sole, viewpoint)
+        segmentation.set_value(found)

@@ -1,0 +1,254 @@
+"""Which of the planes are the treads of a staircase.
+
+Two ways: the paper's (Sec. 4.3: the largest cluster of planes of like size) and, the
+default, the longest chain of planes of a tread's size that rise from one to the next.
+All of it in a frame G whose z points up.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import shapely  # type: ignore[import-untyped]
+from scipy.cluster.hierarchy import fcluster, linkage
+
+from footfall.models.values.validation import Parameters, number
+from footfall.models.values.vector import Vector
+from footfall.systems.perception.planes.planes import (
+    FittedPlane,
+    Patch,
+    bound_patch,
+    fit_plane,
+)
+
+PART_OFFSET = 0.015
+"""Most that parts of one tread lie off one plane, m: three times the noise."""
+PART_FILL = 0.45
+"""Least part of a joined tread's rectangle that was seen."""
+LEVEL_SLOPE = 0.09
+"""Steepest tread that is joined from parts, rad."""
+
+
+@dataclass(kw_only=True)
+class StairLimits(Parameters):
+    """What passes for a staircase."""
+
+    min_depth: float = number(0.10, "m", above=0.0)
+    """Least depth of a tread, m: less than any sole needs, so that a tread that is
+    seen in part still counts."""
+    max_depth: float = number(0.45, "m", above=0.0)
+    """Largest depth of a tread, m: building codes stop at 0.36; a landing has more."""
+    min_width: float = number(0.30, "m", above=0.0)
+    """Least width of a tread, m: two feet side by side."""
+    max_width: float = number(3.0, "m", above=0.0)
+    """Largest width of a tread, m."""
+    min_rise: float = number(0.05, "m", above=0.0)
+    """Least rise from a tread to the next, m."""
+    max_rise: float = number(0.50, "m", above=0.0)
+    """Largest rise from a tread to the next, m. Twice what the paper climbs (0.24), so
+    that a staircase too steep to climb is seen for what it is."""
+    max_turn: float = number(0.35, "rad", least=0.0)
+    """Most that the way to the next tread departs from a tread's own axis, rad."""
+    depth_tolerance: float = number(0.06, least=0.0, most=1.0)
+    """How much the depth of a last tread whose end was not seen may depart from that
+    of the others, as a part of it: else the end is that of the view."""
+    max_gap: float = number(0.30, "m", least=0.0)
+    """Largest gap between parts of one tread, m: the shadow of a leg."""
+    size_tolerance: float = number(0.1, "m", above=0.0)
+    """Distance below which two sizes (dx, dy) are of one cluster, m; the paper names
+    the clustering, not its distance."""
+
+    def validate(self) -> None:
+        """Checks every field, and those that concern each other.
+
+        Raises:
+            ValueError: "field: reason, got x" for the first field that is wrong.
+        """
+        super().validate()
+        for name in ("depth", "width", "rise"):
+            least, most = getattr(self, f"min_{name}"), getattr(self, f"max_{name}")
+            if not least < most:
+                raise ValueError(
+                    f"max_{name}: must exceed min_{name}, {least:g} m, got {most:g} m"
+                )
+
+
+def largest_size_cluster(extents: Vector, tolerance: float) -> list[int]:
+    """The paper's rule: the largest cluster of segments in the (dx, dy) plane.
+
+    Args:
+        extents: (dx, dy, dz) of each segment, (n, 3), m.
+        tolerance: single-linkage distance, m.
+
+    Returns:
+        Indices of the cluster's segments; of clusters as large the one with the
+        smallest segments, for the others are floors and landings.
+    """
+    if len(extents) < 2:
+        return list(range(len(extents)))
+    labels = fcluster(linkage(extents[:, :2]), tolerance, criterion="distance")
+    best = max(
+        np.unique(labels),
+        key=lambda label: (
+            np.count_nonzero(labels == label),
+            -float(np.prod(extents[labels == label, :2], axis=1).mean()),
+        ),
+    )
+    return [int(i) for i in np.flatnonzero(labels == best)]
+
+
+def join_parts(patches: tuple[Patch, ...], limits: StairLimits) -> tuple[Patch, ...]:
+    """Joins the parts of a tread that something stands before, as the robot's knees.
+
+    Parts are level, of one plane, no farther apart than `max_gap`, and together no
+    larger than a tread.
+
+    Args:
+        patches: all patches.
+        limits: what passes for a staircase.
+
+    Returns:
+        The patches, those joined in the place of their first part.
+    """
+    joined = list(patches)
+    tries = [
+        (i, k)
+        for k in range(len(patches))
+        for i in range(k)
+        if _may_be_parts(patches[i], patches[k], limits)
+    ]
+    place = list(range(len(patches)))
+    for i, k in tries:
+        i, k = place[i], place[k]
+        if i == k:
+            continue
+        whole = _join(joined[i], joined[k], limits)
+        if whole is not None:
+            joined[min(i, k)] = whole
+            place = [min(i, k) if at in (i, k) else at for at in place]
+    return tuple(joined[i] for i in sorted(set(place)))
+
+
+def _may_be_parts(a: Patch, b: Patch, limits: StairLimits) -> bool:
+    between = b.center - a.center
+    return bool(
+        abs(between[2]) <= PART_OFFSET + LEVEL_SLOPE * np.hypot(*between[:2])
+        and np.hypot(*between[:2]) <= limits.max_width
+        and max(a.extent[0], b.extent[0]) <= limits.max_depth
+        and max(a.extent[1], b.extent[1]) <= limits.max_width
+        and min(a.plane.normal[2], b.plane.normal[2]) >= np.cos(LEVEL_SLOPE)
+        and shapely.distance(
+            shapely.Polygon(a.outline[:, :2]), shapely.Polygon(b.outline[:, :2])
+        )
+        <= limits.max_gap
+    )
+
+
+def _join(a: Patch, b: Patch, limits: StairLimits) -> Patch | None:
+    """The patch of both parts' points; None where that is no tread."""
+    points = np.concatenate([a.points, b.points])
+    point, normal = fit_plane(points)
+    if np.percentile(np.abs((points - point) @ normal), 95.0) > PART_OFFSET:
+        return None
+    inliers = np.concatenate([a.plane.inliers, b.plane.inliers])
+    whole = bound_patch(FittedPlane(point, normal, inliers), points, a.area + b.area)
+    if whole is None:
+        return None
+    fits = whole.extent[0] <= limits.max_depth and whole.extent[1] <= limits.max_width
+    filled = whole.area >= PART_FILL * whole.extent[0] * whole.extent[1]
+    return whole if fits and filled else None
+
+
+def tread_candidates(
+    patches: tuple[Patch, ...], limits: StairLimits, max_dz: float
+) -> list[int]:
+    """Indices of the level patches with the size of a tread, lowest first."""
+    chosen = [
+        number
+        for number, patch in enumerate(patches)
+        if patch.extent[2] <= max_dz
+        and limits.min_depth <= patch.extent[0] <= limits.max_depth
+        and limits.min_width <= patch.extent[1] <= limits.max_width
+    ]
+    return sorted(chosen, key=lambda number: float(patches[number].center[2]))
+
+
+def longest_chain(
+    patches: tuple[Patch, ...], candidates: list[int], limits: StairLimits
+) -> list[int]:
+    """The longest flight: each tread a rise above and a run behind the one before.
+
+    Args:
+        patches: all patches.
+        candidates: indices of those with the size of a tread, lowest first.
+        limits: what passes for a staircase.
+
+    Returns:
+        Indices of the treads, lowest first; of flights as long the best supported.
+    """
+    length: dict[int, tuple[int, int]] = {}
+    before: dict[int, int | None] = {}
+    for upper in candidates:
+        support = len(patches[upper].points)
+        length[upper], before[upper] = (1, support), None
+        for lower in candidates:
+            if lower == upper or lower not in length:
+                continue
+            if not _follows(patches[lower], patches[upper], limits):
+                continue
+            longer = (length[lower][0] + 1, length[lower][1] + support)
+            if longer > length[upper]:
+                length[upper], before[upper] = longer, lower
+    if not length:
+        return []
+    last: int | None = max(length, key=lambda number: length[number])
+    chain: list[int] = []
+    while last is not None:
+        chain.append(last)
+        last = before[last]
+    return chain[::-1]
+
+
+def _follows(lower: Patch, upper: Patch, limits: StairLimits) -> bool:
+    """Whether `upper` may be the next tread after `lower`."""
+    step = upper.center - lower.center
+    rise = float(step[2])
+    if not limits.min_rise <= rise <= limits.max_rise:
+        return False
+    axes = (lower.axes[:2, 0], upper.axes[:2, 0])
+    if abs(float(axes[0] @ axes[1])) < np.cos(limits.max_turn):
+        return False
+    wider = max(lower.extent[1], upper.extent[1])
+    if min(lower.extent[1], upper.extent[1]) < 0.6 * wider:
+        return False
+    # Patches of unlike size turn the axis least: measure along the better known one.
+    axis = axes[0] if lower.extent[1] >= upper.extent[1] else axes[1]
+    along = abs(float(step[:2] @ axis))
+    across = abs(float(step[0] * axis[1] - step[1] * axis[0]))
+    deepest = (lower.extent[0] + upper.extent[0]) / 2.0
+    return bool(0.5 * deepest <= along <= deepest + 0.15 and across <= 0.25 * wider)
+
+
+def floor_below(
+    patches: tuple[Patch, ...], treads: list[int], limits: StairLimits
+) -> int | None:
+    """The plane that the staircase rises from: the largest within a rise below it.
+
+    A robot on the stairs may see none there; then the largest of all lower planes.
+    """
+    lowest = np.inf
+    if treads:
+        lowest = float(patches[treads[0]].center[2]) - limits.min_rise
+    below = [
+        number
+        for number, patch in enumerate(patches)
+        if number not in treads and patch.center[2] < lowest
+    ]
+    if not below:
+        return None
+    reach = lowest + limits.min_rise - limits.max_rise
+    adjacent = [
+        number
+        for number in below
+        if treads and float(patches[number].center[2]) >= reach
+    ]
+    return max(adjacent or below, key=lambda number: patches[number].area)

@@ -1,0 +1,294 @@
+"""Rectangles of treads from the points of the cloud rather than from its voxels.
+
+A tread's outline in voxels is quantised and eroded by the filters. Here its edges are
+sought in the cloud: the front edge where the face below it stands, the back edge where
+the next face stands, the ends and an edge without face where the points end.
+All of it in a frame G whose z points up.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy import ndimage
+
+from footfall.models.values.vector import Vector
+from footfall.systems.perception.planes.planes import Patch, fit_plane
+
+SLAB = 0.015
+"""Points this near to a tread's plane belong to it, m: three times the range noise of
+5 mm; where there is more noise, up to twice as much."""
+BIN = 0.03
+"""Width of the strips in which the end of a tread is looked for, m."""
+CELL = 0.04
+"""Cell in which points of one tread hang together, m: far lines are this far apart."""
+OVERHANG = 0.012
+"""A tread that ends this far before the face below it overhangs it, m; less may be the
+noise of its own end."""
+FACE = 0.07
+"""How far from a tread's plane its faces are looked at, m: short of the least rise of
+a staircase, 10 cm, and of the noise of the tread there."""
+SHADOW = 0.25
+"""Widest shadow across a tread, m: of a leg."""
+MIN_FACE_POINTS = 25
+"""Fewer points do not make a face."""
+
+
+@dataclass(frozen=True, eq=False)
+class Tread:
+    """A tread's rectangle in the staircase's frame S (x up the stairs, z up)."""
+
+    low: Vector
+    """Front right corner (x, y), (2,), m."""
+    high: Vector
+    """Back left corner (x, y), (2,), m."""
+    point: Vector
+    """A point of its plane in S, (3,), m."""
+    normal: Vector
+    """Unit normal in S, up, (3,)."""
+    points: Vector
+    """Supporting points in S, (n, 3), m."""
+    drops: bool
+    """Whether something lower was seen before its front edge."""
+    ends: bool
+    """Whether a face was seen at its back edge or, of the last tread, what lies behind
+    it."""
+
+
+def stair_rotation(yaw: float) -> Vector:
+    """R_GS of a staircase whose x is turned by `yaw` about G's z, (3, 3)."""
+    c, s = np.cos(yaw), np.sin(yaw)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def initial_yaw(
+    patches: list[Patch], points: Vector, viewpoint: Vector | None
+) -> float:
+    """Direction up the stairs from the patches' axes, rad.
+
+    Args:
+        patches: the treads, lowest first.
+        points: the cloud near them, (n, 3), m.
+        viewpoint: where it was seen from, (3,), m.
+    """
+    axis = np.zeros(2)
+    reference = patches[0].axes[:2, 0]
+    for patch in patches:
+        sign = 1.0 if patch.axes[:2, 0] @ reference >= 0.0 else -1.0
+        axis += sign * len(patch.points) * patch.axes[:2, 0]
+    if len(patches) > 1:
+        up = (patches[-1].center - patches[0].center)[:2]
+    elif viewpoint is not None:
+        up = (patches[0].center - viewpoint)[:2]
+    else:
+        up = _away_from_face(patches[0], points)
+    axis *= 1.0 if axis @ up >= 0.0 else -1.0
+    return float(np.arctan2(axis[1], axis[0]))
+
+
+def _away_from_face(patch: Patch, points: Vector) -> Vector:
+    """Up the stairs for a lone tread: its back is hidden, its front face is not."""
+    local = (points - patch.center) @ patch.axes
+    half = patch.extent[:2] / 2.0
+    below = (np.abs(local[:, 1]) < half[1]) & (local[:, 2] < -SLAB)
+    below &= np.abs(np.abs(local[:, 0]) - half[0]) < BIN
+    front = np.count_nonzero(below & (local[:, 0] < 0.0))
+    back = np.count_nonzero(below & (local[:, 0] > 0.0))
+    sign = 1.0 if front >= back else -1.0
+    return np.asarray(sign * patch.axes[:2, 0])
+
+
+def refine_treads(
+    patches: list[Patch], cloud: Vector, viewpoint: Vector | None
+) -> tuple[float, list[Tread]]:
+    """Rectangles of a flight of treads.
+
+    Args:
+        patches: the treads, lowest first, at least one.
+        cloud: the cloud, (n, 3), m.
+        viewpoint: where it was seen from, (3,), m.
+
+    Returns:
+        Yaw of S in G, rad, and the treads in S (which has G's origin).
+    """
+    near = _near(patches, cloud)
+    yaw = initial_yaw(patches, near, viewpoint)
+    treads: list[Tread] = []
+    for _ in range(3):
+        rotation = stair_rotation(yaw)
+        local = near @ rotation
+        treads = [_bound(patch, local, rotation) for patch in patches]
+        slope = _common_slope(treads, local)
+        yaw = float(yaw - np.arctan(slope))
+    rotation = stair_rotation(yaw)
+    local = near @ rotation
+    treads = [_bound(patch, local, rotation) for patch in patches]
+    last = treads[-1]
+    if not last.ends and viewpoint is not None:
+        seen = _is_seen_past(last, cloud @ rotation, viewpoint @ rotation)
+        treads[-1] = replace(last, ends=seen)
+    return yaw, treads
+
+
+def _is_seen_past(tread: Tread, cloud: Vector, eye: Vector) -> bool:
+    """Whether the view goes on over a tread's back edge, so that it is its own.
+
+    Args:
+        tread: the tread.
+        cloud: the cloud in S, (n, 3), m.
+        eye: viewpoint in S, (3,), m.
+    """
+    off = (cloud - tread.point) @ tread.normal
+    height = float((eye - tread.point) @ tread.normal)
+    below = cloud[off < -SLAB]
+    # Where the ray to the point pierces the tread's plane; under an open tread one
+    # sees too, but through the plane before it.
+    part = height / (height - off[off < -SLAB])
+    through = eye[:2] + part[:, None] * (below[:, :2] - eye[:2])
+    past = (through[:, 0] > tread.high[0] + 0.01) & (
+        through[:, 0] < tread.high[0] + 1.0
+    )
+    past &= (through[:, 1] > tread.low[1]) & (through[:, 1] < tread.high[1])
+    return height > 0.0 and bool(np.count_nonzero(past) >= MIN_FACE_POINTS)
+
+
+def _near(patches: list[Patch], cloud: Vector) -> Vector:
+    outline = np.concatenate([patch.outline for patch in patches])
+    low, high = outline.min(axis=0) - 0.4, outline.max(axis=0) + 0.4
+    return cloud[np.all((cloud > low) & (cloud < high), axis=1)]
+
+
+def _bound(patch: Patch, local: Vector, rotation: Vector) -> Tread:
+    """The rectangle of a tread from the cloud in S, (n, 3)."""
+    core = patch.points @ rotation
+    point, normal = patch.plane.point @ rotation, patch.plane.normal @ rotation
+    off = (local - point) @ normal
+    noise = 1.4826 * float(np.median(np.abs((core - point) @ normal)))
+    thickness = min(max(3.0 * noise, SLAB), 2.0 * SLAB)
+    slab = _hanging_together(local[np.abs(off) <= thickness], core)
+    x, y = slab[:, 0], slab[:, 1]
+    right, left = -_strip_end(x, -y), _strip_end(x, y)
+    front, back = -_strip_end(y, -x), _strip_end(y, x)
+    inside = (local[:, 1] > right + BIN) & (local[:, 1] < left - BIN)
+    face = inside & (off < -thickness) & (off > -FACE)
+    standing, found = _face(local[face, 0], front)
+    # A nosing overhangs its riser: then the tread's own end counts.
+    overhang = max(OVERHANG, 0.8 * thickness)
+    front = standing if found and front > standing - overhang else front
+    riser = inside & (off > thickness) & (off < FACE)
+    standing, ends = _face(local[riser, 0], back)
+    back = standing if ends else back
+    before = inside & (off < -0.03) & (local[:, 0] < front + BIN)
+    drops = np.count_nonzero(before & (local[:, 0] > front - 0.25)) >= MIN_FACE_POINTS
+    # The rim is mixed with points of the faces, which would tilt and lift the plane.
+    rim = (x > front + 0.02) & (x < back - 0.02) & (y > right) & (y < left)
+    if np.count_nonzero(rim) >= MIN_FACE_POINTS:
+        point, normal = fit_plane(slab[rim])
+    return Tread(
+        low=np.array([front, right]),
+        high=np.array([back, left]),
+        point=point,
+        normal=normal,
+        points=slab,
+        drops=bool(drops),
+        ends=bool(ends),
+    )
+
+
+def _hanging_together(slab: Vector, core: Vector) -> Vector:
+    """The points of a slab that are the core's tread, in plan view.
+
+    These are the pieces that hang together with the core, which may be in several where
+    something hides the rest, and pieces beside it, behind the shadow of a leg, that
+    are too small for a plane of their own.
+    """
+    both = np.concatenate([slab, core])[:, :2]
+    cells = np.floor(both / CELL).astype(np.int64)
+    cells -= cells.min(axis=0) - 1
+    size = cells.max(axis=0) + 2
+    occupied = np.zeros(size, dtype=bool)
+    occupied[cells[:, 0], cells[:, 1]] = True
+    label, count = ndimage.label(occupied, np.ones((3, 3)))
+    of_point = label[cells[:, 0], cells[:, 1]]
+    wanted = np.bincount(of_point[len(slab) :], minlength=count + 1)
+    own = wanted >= MIN_FACE_POINTS
+    of_slab = of_point[: len(slab)]
+    main = slab[own[of_slab]]
+    if not len(main):
+        return core
+    (front, right), (back, left) = main[:, :2].min(axis=0), main[:, :2].max(axis=0)
+    for number in np.unique(of_slab[~own[of_slab]]):
+        piece = slab[of_slab == number, :2]
+        if len(piece) < MIN_FACE_POINTS:
+            continue
+        low, high = piece.min(axis=0), piece.max(axis=0)
+        between = max(low[1] - left, right - high[1])
+        fits = low[0] > front - BIN and high[0] < back + BIN
+        if fits and between <= SHADOW and high[0] - low[0] > 0.5 * (back - front):
+            own[number] = True
+    return np.asarray(slab[own[of_slab]])
+
+
+def _strip_end(across: Vector, along: Vector) -> float:
+    """Where points end: the upper third of the ends of the strips across, m.
+
+    Strips that something hides end early, so that the median would be drawn in.
+    """
+    strip = np.floor(across / BIN).astype(np.int64)
+    strip -= strip.min()
+    ends = np.full(int(strip.max()) + 1, -np.inf)
+    np.maximum.at(ends, strip, along)
+    ends = np.sort(ends[np.isfinite(ends)])
+    return float(np.quantile(ends, 0.6))
+
+
+def _face(x: Vector, edge: float) -> tuple[float, bool]:
+    """Where a vertical face near an edge stands, and whether there is one."""
+    for reach in (0.05, 0.02):
+        x = x[np.abs(x - edge) < reach]
+        if len(x) < MIN_FACE_POINTS:
+            return edge, False
+        edge = float(np.median(x))
+    return edge, True
+
+
+def _common_slope(treads: list[Tread], local: Vector) -> float:
+    """dx/dy of all front faces together, by trimmed least squares."""
+    total, weight = 0.0, 0.0
+    for tread in treads:
+        low, high = tread.low, tread.high
+        off = (local - tread.point) @ tread.normal
+        face = (off < -SLAB) & (off > -FACE)
+        face &= np.abs(local[:, 0] - low[0]) < 0.05
+        face &= (local[:, 1] > low[1]) & (local[:, 1] < high[1])
+        if np.count_nonzero(face) >= MIN_FACE_POINTS:
+            x, y = local[face, 0], local[face, 1]
+        elif tread.drops:
+            x, y = _front_line(tread)
+        else:
+            # It ends along a line of the scanner, not along its edge.
+            continue
+        kept = np.ones(len(x), dtype=bool)
+        slope = 0.0
+        for _ in range(4):
+            if np.count_nonzero(kept) < 4 or np.ptp(y[kept]) < 0.1:
+                break
+            slope, offset = np.polyfit(y[kept], x[kept], 1)
+            residual = np.abs(x - offset - slope * y)
+            kept = residual <= max(2.5 * float(np.median(residual)), 0.002)
+        spread = float(np.sum((y[kept] - y[kept].mean()) ** 2)) if kept.any() else 0.0
+        total += spread * slope
+        weight += spread
+    return total / weight if weight > 0.0 else 0.0
+
+
+def _front_line(tread: Tread) -> tuple[Vector, Vector]:
+    """First points of a tread in strips along x."""
+    x, y = tread.points[:, 0], tread.points[:, 1]
+    strip = np.floor(y / BIN).astype(np.int64)
+    strip -= strip.min()
+    count = int(strip.max()) + 1
+    first = np.full(count, np.inf)
+    np.minimum.at(first, strip, x)
+    used = np.isfinite(first)
+    middle = (np.arange(count) + 0.5) * BIN + np.floor(y.min() / BIN) * BIN
+    return first[used], middle[used]

@@ -1,0 +1,1 @@
+"""The floor and the environment of a room (room paper, Sec. 2)."""

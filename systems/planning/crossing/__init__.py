@@ -1,0 +1,1 @@
+"""Stepping over obstacles (obstacle paper): from feasibility to feet adaptor."""

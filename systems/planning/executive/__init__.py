@@ -1,0 +1,1 @@
+"""Executives: what is due next, to look, to plan or to move."""

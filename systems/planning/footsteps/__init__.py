@@ -1,0 +1,1 @@
+"""Footsteps on stairs and in front of them (stair paper, Sec. 6.1)."""

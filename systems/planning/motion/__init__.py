@@ -1,0 +1,1 @@
+"""From footsteps to motions of CoM, feet and waist, quasi-static ones included."""

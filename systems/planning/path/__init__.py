@@ -1,0 +1,1 @@
+"""Paths and footsteps through a room (room paper)."""

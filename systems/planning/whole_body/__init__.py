@@ -1,0 +1,1 @@
+"""Leg model, link tree and joint motion of a plan."""

@@ -1,0 +1,53 @@
+"""The block diagram: the wiring as it is, as a picture that parses."""
+
+from xml.etree import ElementTree as ET
+
+from footfall.diagrams.figures.block_diagram import (
+    ABSTRACT_COLOR,
+    VECTOR_COLOR,
+    Wire,
+    block_diagram_svg,
+    topology,
+)
+
+
+def test_topology_is_that_of_the_diagram(standing) -> None:
+    """Every system but the log sinks, every wire between them."""
+    blocks, wires = topology(standing.task().diagram)
+    kinds = {block.name: block.kind for block in blocks}
+    assert kinds == {
+        "plant": "MultibodyPlant",
+        "scene_graph": "SceneGraph",
+        "posture": "ConstantVectorSource",
+        "executive": "Clock",
+        "contact_monitor": "ContactMonitor",
+        "speed_monitor": "SpeedMonitor",
+        "station": "FootWrenchSensor",
+    }
+    assert Wire("posture", "y0", "plant", "jvrc1_desired_state", False) in wires
+    results = ("plant", "contact_results")
+    assert Wire(*results, "station", "contact_results", True) in wires
+    assert Wire(*results, "contact_monitor", "contact_results", True) in wires
+    station = next(block for block in blocks if block.name == "station")
+    assert station.inputs == ("contact_results", "body_poses")
+
+
+def test_picture_shows_every_block_and_wire(standing) -> None:
+    """Vectors and abstract values are told apart by colour and dashes."""
+    blocks, wires = topology(standing.task().diagram)
+    picture = ET.fromstring(block_diagram_svg(standing.task().diagram, "a <title>"))
+    assert picture.tag.endswith("svg")
+    texts = {text.text for text in picture.iter("{http://www.w3.org/2000/svg}text")}
+    assert {block.name for block in blocks} <= texts
+    assert any("a <title>" in (text or "") for text in texts)
+    paths = [
+        path.attrib
+        for group in picture.iter("{http://www.w3.org/2000/svg}g")
+        if group.get("class") == "edge"
+        for path in group.iter("{http://www.w3.org/2000/svg}path")
+    ]
+    colors = [attributes["stroke"] for attributes in paths]
+    assert colors.count(ABSTRACT_COLOR) == sum(wire.abstract for wire in wires)
+    assert colors.count(VECTOR_COLOR) == sum(not wire.abstract for wire in wires)
+    dashed = [a for a in paths if "stroke-dasharray" in a]
+    assert {attributes["stroke"] for attributes in dashed} == {ABSTRACT_COLOR}
