@@ -2,15 +2,18 @@
 
 import logging
 import math
-import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from footfall.diagrams.cli_errors import (
+    NOT_DONE,
+    OptionError,
+    bad_input_in_one_line,
+    run_ends_in_one_line,
+)
 from footfall.diagrams.interruption import StopSignals
 
 # What simulates takes seconds to import; every command imports what it needs, so that
@@ -25,13 +28,8 @@ SLOPE = 15.0
 """Of the planes that `segment` keeps, deg; what `PlaneSegmenterParams` has."""
 LOCAL_HOST = "127.0.0.1"
 """Where `--meshcat` listens by default: nobody else's machine reaches it."""
-DONE, NOT_DONE, BAD_INPUT = 0, 1, 2
-"""Exit status: the task was done, it was not, it could not be understood."""
-
-
-class OptionError(ValueError):
-    """An option cannot be understood; the message is one line that names it."""
-
+DONE = 0
+"""Exit status: the task was done."""
 
 app = typer.Typer(
     name="footfall",
@@ -100,6 +98,49 @@ def list_command() -> None:
         typer.echo(f"{name:<{width}}  {description}")
 
 
+@app.command("fields")
+def fields_command(
+    key: Annotated[
+        str,
+        typer.Argument(
+            metavar="KEY",
+            help="A field or a group, e.g. parameters.stabilizer; all by default.",
+            show_default=False,
+        ),
+    ] = "",
+    task: Annotated[
+        str,
+        typer.Option(
+            metavar="KIND",
+            help="Leave out what never acts in this task.kind, e.g. stair_climbing.",
+            show_default=False,
+        ),
+    ] = "",
+    schema: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="Write a JSON schema of scenario files instead, from which editors "
+            "complete.",
+            show_default=False,
+        ),
+    ] = None,
+) -> None:
+    """Print the fields of a scenario: default, unit, bounds, meaning.
+
+    Of an interval ( and ) exclude the bound; what is null is absent unless given.
+    """
+    with bad_input_in_one_line():
+        from footfall.diagrams.fields.fields_command import fields_text, write_schema
+
+        if schema is not None and (key or task):
+            raise OptionError("--schema: holds all fields, give neither KEY nor --task")
+        text = fields_text(key, task) if schema is None else str(schema)
+        if schema is not None:
+            write_schema(schema)
+    typer.echo(text)
+
+
 @app.command()
 def run(
     scenario: ScenarioArgument,
@@ -135,7 +176,7 @@ def run(
     Ctrl-C or SIGTERM ends a run early; it is judged and kept, but not drawn. The
     signals go to disk while it runs: what is killed has all but its last second.
     """
-    with _bad_input_in_one_line():
+    with bad_input_in_one_line():
         from footfall.diagrams.closed_loop.tasks import build_task
         from footfall.diagrams.run_command import run_scenario
 
@@ -143,7 +184,7 @@ def run(
         changes = list(overrides or [])
         chosen = _load(scenario, changes, seed)
         show = partial(_start_meshcat, meshcat_host) if meshcat else None
-        with StopSignals() as stop, _run_ends_in_one_line(stop):
+        with StopSignals() as stop, run_ends_in_one_line(stop):
             summary = run_scenario(chosen, changes, out, build_task, stop, show)
     raise typer.Exit(DONE if summary.outcome == "completed" else NOT_DONE)
 
@@ -181,7 +222,7 @@ def segment(
     ] = None,
 ) -> None:
     """Find planes and stairs in a point cloud: JSON, a picture, times."""
-    with _bad_input_in_one_line():
+    with bad_input_in_one_line():
         from footfall.diagrams.segmenting import segment_file
         from footfall.systems.perception.planes.segmenter_params import (
             PlaneSegmenterParams,
@@ -206,7 +247,7 @@ def segment(
 @app.command()
 def plot(run_folder: RunArgument) -> None:
     """Draw the figures of a run into its folder `figures`."""
-    with _bad_input_in_one_line():
+    with bad_input_in_one_line():
         from footfall.diagrams.figures.report import plot_run
 
         for path in plot_run(run_folder):
@@ -216,7 +257,7 @@ def plot(run_folder: RunArgument) -> None:
 @app.command()
 def replay(run_folder: RunArgument) -> None:
     """Write a run as a page that opens without a server."""
-    with _bad_input_in_one_line():
+    with bad_input_in_one_line():
         from footfall.diagrams.figures.replay import replay_run
 
         _quiet_drake()
@@ -251,7 +292,7 @@ def render(
     ] = None,
 ) -> None:
     """Render a run as a film strip, headless, into its folder `figures`."""
-    with _bad_input_in_one_line():
+    with bad_input_in_one_line():
         from footfall.diagrams.figures.film_strip import render_run
 
         _quiet_drake()
@@ -272,7 +313,7 @@ def diagram(
     overrides: SetOption = None,
 ) -> None:
     """Draw the block diagram of a scenario as SVG."""
-    with _bad_input_in_one_line():
+    with bad_input_in_one_line():
         from footfall.diagrams.closed_loop.tasks import build_task
         from footfall.diagrams.figures.block_diagram import block_diagram_svg
 
@@ -337,53 +378,3 @@ def _parse_slope(degrees: float) -> float:
 def _quiet_drake() -> None:
     """Drake tells of every port that Meshcat opens; a person did not ask."""
     logging.getLogger("drake").setLevel(logging.ERROR)
-
-
-@contextmanager
-def _run_ends_in_one_line(stop: StopSignals) -> Iterator[None]:
-    """What a signal or a full disk ends says so, and exits with the status of that."""
-    from footfall.diagrams.run_folder import RecordingError
-
-    try:
-        yield
-    except RecordingError as error:
-        typer.echo(f"footfall: {error}", err=True)
-        raise typer.Exit(NOT_DONE) from None
-    except KeyboardInterrupt as interrupt:
-        typer.echo(f"footfall: {str(interrupt) or 'interrupted'}", err=True)
-        raise typer.Exit(stop.exit_status()) from None
-
-
-@contextmanager
-def _bad_input_in_one_line() -> Iterator[None]:
-    """What the user can mend ends in one line on stderr and exit status 2."""
-    try:
-        yield
-    except Exception as error:
-        if not isinstance(error, _bad_input_errors()):
-            raise
-        line = " ".join(_message(error).split())
-        typer.echo(f"footfall: {line}", err=True)
-        raise typer.Exit(BAD_INPUT) from None
-
-
-def _message(error: Exception) -> str:
-    """What the system says of a file comes with its name first, as ours does."""
-    if isinstance(error, OSError) and error.filename is not None and error.strerror:
-        return f"{error.filename}: {error.strerror}"
-    return getattr(error, "strerror", None) or str(error)
-
-
-def _bad_input_errors() -> tuple[type[Exception], ...]:
-    """Those of what was imported; what was not has raised nothing."""
-    homes = (
-        ("footfall.diagrams.run_folder", "OutError"),
-        ("footfall.diagrams.scenario", "ScenarioError"),
-        ("footfall.diagrams.signals", "RunError"),
-        ("footfall.systems.perception.clouds.cloud_files", "CloudFileError"),
-        ("footfall.systems.perception.room.environment_xml", "EnvironmentFileError"),
-    )
-    own = [
-        getattr(sys.modules[home], name) for home, name in homes if home in sys.modules
-    ]
-    return OptionError, OSError, *own

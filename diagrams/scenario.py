@@ -7,15 +7,14 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
-import yaml
 from pydrake.common.yaml import yaml_dump, yaml_load_typed
 
+from footfall.diagrams.fields.commented_yaml import commented_yaml
 from footfall.diagrams.schema import (
     FieldError,
     Mapping,
     check,
     parse_yaml,
-    plain,
     set_field,
     validate,
 )
@@ -345,9 +344,8 @@ def place_clutter(scenario: Scenario) -> Scenario:
 
 
 def save_scenario(scenario: Scenario, path: str | Path) -> None:
-    """Writes the scenario with every field resolved; it loads back equal."""
-    text = yaml.safe_dump(plain(scenario), sort_keys=False)
-    Path(path).write_text(text, encoding="utf-8")
+    """Writes every field that acts, with its unit; it loads back equal."""
+    Path(path).write_text(commented_yaml(scenario), encoding="utf-8")
 
 
 def _read(name_or_path: str | Path) -> tuple[str, str, str]:

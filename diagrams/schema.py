@@ -14,7 +14,8 @@ from typing import Any, TypeAlias
 
 import yaml
 
-from footfall.models.values.validation import SHARED, Parameters
+from footfall.models.values.bounds import SHARED
+from footfall.models.values.validation import Parameters
 
 Mapping: TypeAlias = dict[str, Any]
 """A mapping as parsed YAML has it; its values are checked against the schema."""

@@ -10,10 +10,12 @@ Every message reads "field: reason, got x".
 
 import dataclasses
 import math
-import numbers
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeVar, cast
+
+from footfall.models.values.bounds import BOUNDS, CHOICES, SHARED, Bounds
+from footfall.models.values.description import ClassDocument
 
 T = TypeVar("T")
 P = TypeVar("P", bound="Parameters")
@@ -25,59 +27,6 @@ LARGEST_OF_OTHERS = 1e6
 RIGHT_ANGLE = math.pi / 2.0
 """rad."""
 LARGEST_SEED = 2**31 - 1
-BOUNDS, CHOICES, SHARED = "bounds", "choices", "shared"
-"""Keys of a field's metadata: what it may be, and which field it takes its value of."""
-
-
-@dataclass(frozen=True)
-class Bounds:
-    """What a number, or each number of a list, may be."""
-
-    unit: str
-    """Empty where it has none."""
-    above: float
-    """It exceeds this."""
-    least: float
-    below: float
-    """It is less than this."""
-    most: float
-    length: int | None
-    """Of a list; None for any."""
-    fewest: int
-    """A list has at least so many elements."""
-
-    def check(self, field: str, value: float, whole: bool) -> None:
-        """Checks one number.
-
-        Args:
-            field: its name.
-            value: the number.
-            whole: whether it counts something.
-
-        Raises:
-            ValueError: it is no finite number within the bounds.
-        """
-        if isinstance(value, bool) or not isinstance(value, numbers.Real):
-            raise ValueError(f"{field}: must be a number, got {value!r}")
-        if not math.isfinite(value):
-            reason = "finite"
-        elif whole and not isinstance(value, numbers.Integral):
-            reason = "a whole number"
-        elif not value > self.above:
-            more = f"more than {self._shown(self.above)}"
-            reason = more if self.above else "positive"
-        elif not value >= self.least:
-            reason = f"at least {self._shown(self.least)}"
-        elif not value < self.below:
-            reason = f"less than {self._shown(self.below)}"
-        elif not value <= self.most:
-            reason = f"at most {self._shown(self.most)}"
-        else:
-            return
-        raise ValueError(f"{field}: must be {reason}, got {self._shown(value)}")
-
-    def _shown(self, value: float) -> str:
-        return f"{value:g} {self.unit}".rstrip()
 
 
 def number(
@@ -143,7 +92,16 @@ def choice(default: str, choices: Sequence[str]) -> str:
 
 @dataclass(kw_only=True)
 class Parameters:
-    """Base of the parameter classes: what their fields state is what they check."""
+    """Base of the parameter classes: what their fields state is what they check.
+
+    `help` of a derived class shows the text under each of its fields.
+    """
+
+    def __init_subclass__(cls) -> None:
+        """Has the class's documentation list the fields when it is asked for."""
+        super().__init_subclass__()
+        own: Any = ClassDocument(vars(cls).get("__doc__") or "")
+        cls.__doc__ = own
 
     def validate(self) -> None:
         """Checks every field, and those of the parts.

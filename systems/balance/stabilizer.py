@@ -30,6 +30,7 @@ class StabilizerParams(Parameters):
     height_damping: float = number(20.0, "1/s", least=0.0)
     """Acceleration per vertical velocity error of the CoM, 1/s."""
     distribution: DistributionParams = field(default_factory=DistributionParams)
+    """How the wrench that the feedback wants is shared between the feet."""
 
 
 @dataclass(frozen=True)

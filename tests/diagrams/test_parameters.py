@@ -26,7 +26,8 @@ from footfall.models.scenes.obstacle import BoxParams
 from footfall.models.scenes.room import RoomParams
 from footfall.models.scenes.scene import SceneParams
 from footfall.models.scenes.staircase import StaircaseParams
-from footfall.models.values.validation import BOUNDS, CHOICES, Parameters
+from footfall.models.values.bounds import BOUNDS, CHOICES
+from footfall.models.values.validation import Parameters
 from footfall.systems.balance.landing_adaptor import LandingAdaptor, LandingParams
 from footfall.systems.balance.stabilizer import Stabilizer, StabilizerParams
 from footfall.systems.balance.zmp_preview import ZmpPreviewParams, preview_gains

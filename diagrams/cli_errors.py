@@ -1,0 +1,67 @@
+"""Errors of the command line: one line on stderr and an exit status."""
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import typer
+
+from footfall.diagrams.interruption import StopSignals
+
+NOT_DONE, BAD_INPUT = 1, 2
+"""Exit status: the task was not done, it could not be understood."""
+
+
+class OptionError(ValueError):
+    """An option cannot be understood; the message is one line that names it."""
+
+
+@contextmanager
+def run_ends_in_one_line(stop: StopSignals) -> Iterator[None]:
+    """What a signal or a full disk ends says so, and exits with the status of that."""
+    from footfall.diagrams.run_folder import RecordingError
+
+    try:
+        yield
+    except RecordingError as error:
+        typer.echo(f"footfall: {error}", err=True)
+        raise typer.Exit(NOT_DONE) from None
+    except KeyboardInterrupt as interrupt:
+        typer.echo(f"footfall: {str(interrupt) or 'interrupted'}", err=True)
+        raise typer.Exit(stop.exit_status()) from None
+
+
+@contextmanager
+def bad_input_in_one_line() -> Iterator[None]:
+    """What the user can mend ends in one line on stderr and exit status 2."""
+    try:
+        yield
+    except Exception as error:
+        if not isinstance(error, _bad_input_errors()):
+            raise
+        line = " ".join(_message(error).split())
+        typer.echo(f"footfall: {line}", err=True)
+        raise typer.Exit(BAD_INPUT) from None
+
+
+def _message(error: Exception) -> str:
+    """What the system says of a file comes with its name first, as ours does."""
+    if isinstance(error, OSError) and error.filename is not None and error.strerror:
+        return f"{error.filename}: {error.strerror}"
+    return getattr(error, "strerror", None) or str(error)
+
+
+def _bad_input_errors() -> tuple[type[Exception], ...]:
+    """Those of what was imported; what was not has raised nothing."""
+    homes = (
+        ("footfall.diagrams.run_folder", "OutError"),
+        ("footfall.diagrams.scenario", "ScenarioError"),
+        ("footfall.diagrams.schema", "FieldError"),
+        ("footfall.diagrams.signals", "RunError"),
+        ("footfall.systems.perception.clouds.cloud_files", "CloudFileError"),
+        ("footfall.systems.perception.room.environment_xml", "EnvironmentFileError"),
+    )
+    own = [
+        getattr(sys.modules[home], name) for home, name in homes if home in sys.modules
+    ]
+    return OptionError, OSError, *own
