@@ -24,7 +24,7 @@ LARGEST_OF_OTHERS = 1e6
 """The same for every other unit, and for what has none."""
 RIGHT_ANGLE = math.pi / 2.0
 """rad."""
-LARGEST_SEED = 2**31 - 1
+MAX_SEED = 2**31 - 1
 BOUNDS, CHOICES, SHARED = "bounds", "choices", "shared"
 """Keys of a field's metadata: what it may be, and which field it takes its value of."""
 
