@@ -28,7 +28,7 @@ from footfall.models.scenes.scene import SceneParams
 from footfall.models.scenes.solids import upright_pose
 from footfall.models.scenes.staircase import StaircaseParams
 from footfall.models.values.validation import (
-    LARGEST_SEED,
+    MAX_SEED,
     Parameters,
     choice,
     number,
@@ -164,7 +164,7 @@ class SimulationParams(Parameters):
     """How Drake solves contact: "lagged", "similar" or "sap"."""
     max_time: float = number(120.0, "s", above=0.0)
     """When the run is given up, s of simulated time."""
-    seed: int = number(0, least=0, most=LARGEST_SEED)
+    seed: int = number(0, least=0, most=MAX_SEED)
     """Seed of everything that is random."""
 
 

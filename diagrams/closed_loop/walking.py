@@ -22,7 +22,7 @@ from footfall.systems.tracking.ik_tracker import IkTracker
 from footfall.systems.tracking.whole_body_feedforward import WholeBodyFeedforward
 from footfall.systems.tracking.whole_body_ik import IkTarget, WholeBodyIk, solve_posture
 
-LARGEST_ACCELERATION = 150.0
+MAX_ACCELERATION = 150.0
 """Joint accelerations of the reference are clamped to this, rad/s^2."""
 
 
@@ -174,7 +174,7 @@ def add_walking(
     )
 
     feedforward = add_system(
-        builder, "feedforward", WholeBodyFeedforward(model, robot, LARGEST_ACCELERATION)
+        builder, "feedforward", WholeBodyFeedforward(model, robot, MAX_ACCELERATION)
     )
     for port in ("positions", "velocities", "accelerations"):
         builder.Connect(tracker.GetOutputPort(port), feedforward.GetInputPort(port))

@@ -1,4 +1,4 @@
-"""A scenario as YAML with units and meanings as comments, what does not act left out."""
+"""A scenario as YAML with units and meanings as comments; what does not act is out."""
 
 import dataclasses
 import re
@@ -12,7 +12,7 @@ from footfall.diagrams.fields.field_tree import plain_key
 from footfall.models.values.description import FieldDescription, describe
 
 WIDTH = 88
-"""Of a line with its comment, columns; longer meanings are left to `footfall fields`."""
+"""Of a line with its comment, columns; longer meanings are for `footfall fields`."""
 CUTS = re.compile(r"[;:] | \(")
 """Where a sentence may end early."""
 SENTENCE_END = re.compile(r"(?<!Eq)(?<!Eqs)(?<!Sec)(?<!Fig)\. ")

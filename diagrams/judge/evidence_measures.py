@@ -121,9 +121,7 @@ def _longest(time: Vector, holds: np.ndarray[tuple[int], np.dtype]) -> float:
     return float(max(spans, default=0.0))
 
 
-def largest_slip(
-    evidence: Evidence, wrenches: dict[Foot, Vector] | None
-) -> float | None:
+def max_slip(evidence: Evidence, wrenches: dict[Foot, Vector] | None) -> float | None:
     """Farthest that a loaded foot slid, m."""
     slips = [
         foot_slip(
@@ -188,18 +186,18 @@ def _largest(evidence: Evidence, signal: str) -> float | None:
     return float(frame.to_numpy(dtype=np.float64)[:, 1:].max())
 
 
-def largest_impact(evidence: Evidence) -> float | None:
+def max_impact(evidence: Evidence) -> float | None:
     """The largest mean upward force on one foot, in body weights."""
     force = _largest(evidence, "contact_monitor.impact")
     return None if force is None else force / evidence.limits.weight
 
 
-def largest_friction_ratio(evidence: Evidence) -> float | None:
+def max_friction_ratio(evidence: Evidence) -> float | None:
     """The largest mean horizontal over mean upward force of a loaded foot."""
     return _largest(evidence, "contact_monitor.friction_ratio")
 
 
-def least_clearance(
+def min_clearance(
     evidence: Evidence, wrenches: dict[Foot, Vector] | None
 ) -> float | None:
     """Least distance of a swinging sole to the edge of a tread, m."""
@@ -222,7 +220,7 @@ def crossing_figures(
     """The fields of a judgement that an obstacle crossing adds."""
     crossing = evidence.crossing
     if crossing is None:
-        return {"min_clearance_m": least_clearance(evidence, wrenches)}
+        return {"min_clearance_m": min_clearance(evidence, wrenches)}
     loads = foot_loads(evidence)
     felt = felt_forces(evidence)
     measured = [

@@ -160,11 +160,11 @@ def swing_clearance(
             if not len(short):  # a foot that tumbles, its heel first
                 continue
             passed = int(short[-1]) + 1
-            clearances.append(_least_distance_to_origin(tail[:passed], p_toe[:passed]))
+            clearances.append(_min_distance_to_origin(tail[:passed], p_toe[:passed]))
     return min(clearances, default=None)
 
 
-def _least_distance_to_origin(a: Vector, b: Vector) -> float:
+def _min_distance_to_origin(a: Vector, b: Vector) -> float:
     """Least distance of segments a-b, (n, 2) each, to the origin, negative below it."""
     direction = b - a
     length = np.maximum((direction**2).sum(axis=1), 1e-12)

@@ -17,9 +17,9 @@ from footfall.diagrams.judge.evidence_measures import (
     foot_contacts,
     footsteps,
     goal_error,
-    largest_friction_ratio,
-    largest_impact,
-    largest_slip,
+    max_friction_ratio,
+    max_impact,
+    max_slip,
     min_static_margin,
     min_zmp_margin,
     steps_climbed,
@@ -131,7 +131,7 @@ def judge(evidence: Evidence) -> Judgement:
     wanted = worst_fraction(by_joint(evidence, "station.torque_wanted"), limits.torque)
     clipped = time_at_limit(torques, limits.torque, state_period)
     speed = worst_fraction(joint_peaks(evidence), limits.speed)
-    slip = largest_slip(evidence, wrenches)
+    slip = max_slip(evidence, wrenches)
     outcome, reason = _verdict(evidence, loads, speed, slip)
     nearest = evidence.self_distance
     return Judgement(
@@ -152,8 +152,8 @@ def judge(evidence: Evidence) -> Judgement:
         max_dcm_error_m=dcm_error(evidence),
         com_rms_error_m=com_error(evidence),
         max_foot_slip_m=slip,
-        max_impact_body_weights=largest_impact(evidence),
-        max_friction_ratio=largest_friction_ratio(evidence),
+        max_impact_body_weights=max_impact(evidence),
+        max_friction_ratio=max_friction_ratio(evidence),
         min_self_distance_m=None if nearest is None else nearest.distance,
         min_self_distance_bodies=None if nearest is None else nearest.bodies,
         **crossing_figures(evidence, wrenches),

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from footfall.models.scenes.obstacle import BoxParams
-from footfall.models.values.validation import LARGEST_SEED, Parameters, number
+from footfall.models.values.validation import MAX_SEED, Parameters, number
 from footfall.models.values.vector import Vector
 
 TRIES = 2000
@@ -16,25 +16,25 @@ TRIES = 2000
 class ClutterParams(Parameters):
     """How many boxes stand where, and how large they are."""
 
-    least_count: int = number(6, least=0, most=1000)
+    min_count: int = number(6, least=0, most=1000)
     """Fewest boxes."""
-    most_count: int = number(10, least=0, most=1000)
+    max_count: int = number(10, least=0, most=1000)
     """Most boxes."""
     area: list[float] = number([-1.7, 1.7, -1.9, 1.9], "m", length=4)
     """Where their centres lie: least x, largest x, least y, largest y in W, m."""
-    least_side: float = number(0.20, "m", above=0.0)
+    min_side: float = number(0.20, "m", above=0.0)
     """Shortest side, m."""
-    most_side: float = number(0.50, "m", above=0.0)
+    max_side: float = number(0.50, "m", above=0.0)
     """Longest side, m."""
-    most_height: float = number(0.80, "m", above=0.0)
-    """Tallest box, m; the lowest one is `least_side` high."""
+    max_height: float = number(0.80, "m", above=0.0)
+    """Tallest box, m; the lowest one is `min_side` high."""
     gap: float = number(0.12, "m", least=0.0)
     """Least distance between the circles around two boxes, m: twice the gap at which
     perception tells them apart."""
     keep_clear: float = number(0.55, "m", least=0.0)
     """Least distance of a box from the places that are kept clear, m: the robot's
     footprint with its margin, and some."""
-    seed: int = number(0, least=0, most=LARGEST_SEED)
+    seed: int = number(0, least=0, most=MAX_SEED)
     """Of places and sizes."""
 
     def validate(self) -> None:
@@ -45,9 +45,9 @@ class ClutterParams(Parameters):
         """
         super().validate()
         for small, large in (
-            ("least_count", "most_count"),
-            ("least_side", "most_side"),
-            ("least_side", "most_height"),
+            ("min_count", "max_count"),
+            ("min_side", "max_side"),
+            ("min_side", "max_height"),
         ):
             if getattr(self, large) < getattr(self, small):
                 raise ValueError(
@@ -75,15 +75,15 @@ def place_boxes(params: ClutterParams, clear: Vector) -> list[BoxParams]:
     """
     params.validate()
     rng = np.random.default_rng(params.seed)
-    wanted = int(rng.integers(params.least_count, params.most_count + 1))
+    wanted = int(rng.integers(params.min_count, params.max_count + 1))
     boxes: list[BoxParams] = []
     low = np.array([params.area[0], params.area[2]])
     high = np.array([params.area[1], params.area[3]])
     for _ in range(TRIES):
         if len(boxes) == wanted:
             break
-        sides = rng.uniform(params.least_side, params.most_side, 2)
-        height = rng.uniform(params.least_side, params.most_height)
+        sides = rng.uniform(params.min_side, params.max_side, 2)
+        height = rng.uniform(params.min_side, params.max_height)
         p, yaw = rng.uniform(low, high), rng.uniform(-np.pi, np.pi)
         radius = float(np.linalg.norm(sides)) / 2.0
         apart = all(
@@ -105,4 +105,4 @@ def place_boxes(params: ClutterParams, clear: Vector) -> list[BoxParams]:
             )
     if len(boxes) == wanted:
         return boxes
-    raise ValueError(f"most_count: no room for {wanted} boxes in {params.area} m")
+    raise ValueError(f"max_count: no room for {wanted} boxes in {params.area} m")

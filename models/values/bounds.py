@@ -1,4 +1,4 @@
-"""Bounds of a number, and the keys under which a field's metadata hold what it may be."""
+"""Bounds of a number, and the keys under which a field's metadata hold such limits."""
 
 import math
 import numbers

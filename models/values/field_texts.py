@@ -9,6 +9,7 @@ import ast
 import inspect
 import sys
 from functools import cache
+from itertools import pairwise
 
 
 def field_texts(kind: type) -> dict[str, str]:
@@ -31,7 +32,7 @@ def _own_texts(kind: type) -> dict[str, str]:
     found = _statement(kind)
     texts: dict[str, str] = {}
     body = found.body if found else []
-    for statement, below in zip(body, body[1:], strict=False):
+    for statement, below in pairwise(body):
         if (
             isinstance(statement, ast.AnnAssign)
             and isinstance(statement.target, ast.Name)

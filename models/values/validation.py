@@ -26,7 +26,7 @@ LARGEST_OF_OTHERS = 1e6
 """The same for every other unit, and for what has none."""
 RIGHT_ANGLE = math.pi / 2.0
 """rad."""
-LARGEST_SEED = 2**31 - 1
+MAX_SEED = 2**31 - 1
 
 
 def number(

@@ -28,7 +28,7 @@ _ONCE_ROUND = 2.0 * math.pi + 1e-6
 """A little over, so that an edge that faces the first direction is not missed, rad."""
 _PIVOT = 1e-11
 """Smaller entries of the tableau count as zero."""
-_MOST_PIVOTS = 500
+_MAX_PIVOTS = 500
 """More than any stance of contacts that a robot has hands and feet for."""
 
 
@@ -90,7 +90,7 @@ def _walk(
     tableau[4:, count] = -C[:, columns] @ forces[columns]
     gain_x, gain_y, point = tableau[4, :-1], tableau[5, :-1], tableau[4:, -1]
 
-    for _ in range(_MOST_PIVOTS):
+    for _ in range(_MAX_PIVOTS):
         entering = int(gain_x.argmax())
         if gain_x[entering] <= _PIVOT:
             break
@@ -99,7 +99,7 @@ def _walk(
     x, y = 1.0, 0.0
     edges: list[tuple[tuple[float, float], list[int]]] = []
     turned, last = 0.0, -np.inf
-    for _ in range(_MOST_PIVOTS):
+    for _ in range(_MAX_PIVOTS):
         # How far the direction may turn until a generator is worth as much as another.
         loss = -(x * gain_x + y * gain_y)
         rise = x * gain_y - y * gain_x

@@ -17,7 +17,7 @@ from footfall.systems.balance.wrench_slice import WrenchSlice
 
 _EXPANSION = 1e-8
 """An edge is final when no point lies further outside it, m."""
-_MOST_VERTICES = 500
+_MAX_VERTICES = 500
 """More than any stance of contacts that a robot has hands and feet for."""
 
 
@@ -81,7 +81,7 @@ def project(
             return np.zeros((0, 2))
         vertices.append(vertex)
     i = 0
-    while i < len(vertices) and len(vertices) < _MOST_VERTICES:
+    while i < len(vertices) and len(vertices) < _MAX_VERTICES:
         edge = vertices[(i + 1) % len(vertices)] - vertices[i]
         length = float(np.hypot(*edge))
         if length > _EXPANSION:

@@ -23,7 +23,7 @@ class DistributionParams(Parameters):
     edge_margin: float = number(0.012, "m", least=0.0)
     """The centre of pressure keeps this far inside the sole's edges, m: nearer to one
     the rubber of the sole gives and the foot tips over it."""
-    least_force: float = number(5.0, "N", least=0.0)
+    min_force: float = number(5.0, "N", least=0.0)
     """Normal force that a foot on the ground keeps at least, N."""
     force_weight: float = number(1.0, above=0.0)
     """Weight of the error in net force, 1/N^2."""
@@ -125,7 +125,7 @@ def distribute_wrench(
             sole.half_width - params.edge_margin,
             params.friction,
         )
-        lower[6 * k + 2] = params.least_force
+        lower[6 * k + 2] = params.min_force
         arms.append(arm)
         rotations.append(R_WC)
     weights = np.array(

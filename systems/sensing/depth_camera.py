@@ -13,7 +13,7 @@ from pydrake.systems.framework import BasicVector, Context, LeafSystem, State
 
 from footfall.models.scenes.solids import TriangleMesh
 from footfall.models.values.room import DepthImage
-from footfall.models.values.validation import LARGEST_SEED, Parameters, number
+from footfall.models.values.validation import MAX_SEED, Parameters, number
 from footfall.models.values.value import Value
 from footfall.models.values.vector import Vector
 from footfall.systems.ports import eval_abstract, set_vector
@@ -52,7 +52,7 @@ class DepthCameraParams(Parameters):
     target: list[float] = number([0.0, 0.0, 0.0], "m", length=3)
     """The point in W in the middle of the picture, m; the picture is upright, so its
     width runs across the line from here to the target."""
-    seed: int = number(0, least=0, most=LARGEST_SEED)
+    seed: int = number(0, least=0, most=MAX_SEED)
     """Seed of the noise."""
 
     def validate(self) -> None:

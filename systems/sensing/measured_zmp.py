@@ -4,12 +4,12 @@ import numpy as np
 
 from footfall.models.values.vector import Vector
 
-LEAST_FORCE = 1.0
+MIN_FORCE = 1.0
 """With less upward force on all feet there is no ZMP, N."""
 
 
 def measured_zmp(
-    X_WF: Vector, wrenches_F: Vector, least_force: float = LEAST_FORCE
+    X_WF: Vector, wrenches_F: Vector, min_force: float = MIN_FORCE
 ) -> Vector:
     """The ZMP of what the feet feel, p_WZmp, (..., 3), m; nan while nothing is felt.
 
@@ -20,14 +20,14 @@ def measured_zmp(
     Args:
         X_WF: poses of the sole frames, (..., feet, 4, 4).
         wrenches_F: force then moment about F's origin, in F, (..., feet, 6), N and Nm.
-        least_force: upward force on all feet below which there is none, N.
+        min_force: upward force on all feet below which there is none, N.
     """
     R_WF, p_WF = X_WF[..., :3, :3], X_WF[..., :3, 3]
     f_W = np.einsum("...ij,...j->...i", R_WF, wrenches_F[..., :3])
     about_F = np.einsum("...ij,...j->...i", R_WF, wrenches_F[..., 3:])
     moment = (about_F + np.cross(p_WF, f_W)).sum(axis=-2)
     force = f_W.sum(axis=-2)
-    felt = force[..., 2] >= least_force
+    felt = force[..., 2] >= min_force
     lift = np.where(felt, force[..., 2], np.nan)
     z = (f_W[..., 2] * p_WF[..., 2]).sum(axis=-1) / lift
     x = (z * force[..., 0] - moment[..., 1]) / lift

@@ -12,7 +12,7 @@ from pydrake.systems.framework import BasicVector, Context, LeafSystem, State
 
 from footfall.models.scenes.solids import TriangleMesh
 from footfall.models.values.perceived import LaserScan
-from footfall.models.values.validation import LARGEST_SEED, Parameters, number
+from footfall.models.values.validation import MAX_SEED, Parameters, number
 from footfall.models.values.value import Value
 from footfall.models.values.vector import Vector
 from footfall.systems.ports import eval_abstract, eval_vector, set_vector
@@ -24,7 +24,7 @@ from footfall.systems.sensing.scan_geometry import (
 )
 from footfall.systems.timing import timed
 
-MOST_POINTS = 10_000_000
+MAX_POINTS = 10_000_000
 """More than this many points of a sweep are refused; this scanner takes 260,521."""
 
 
@@ -54,7 +54,7 @@ class TiltingLidarParams(Parameters):
     The sweep is 60 deg (stair paper, Sec. 3)."""
     tilt_step_deg: float = number(0.25, "deg", least=0.01)
     """Tilt between lines, deg; as fine as the beams."""
-    seed: int = number(0, least=0, most=LARGEST_SEED)
+    seed: int = number(0, least=0, most=MAX_SEED)
     """Seed of the noise."""
 
     def validate(self) -> None:
@@ -82,9 +82,9 @@ class TiltingLidarParams(Parameters):
         sweep = self.tilt_end_deg - self.tilt_start_deg
         _require_whole("tilt_step_deg", sweep, self.tilt_step_deg)
         points = sweep / self.tilt_step_deg * self.field_of_view_deg
-        if points / self.resolution_deg > MOST_POINTS:
+        if points / self.resolution_deg > MAX_POINTS:
             raise ValueError(
-                f"tilt_step_deg: must leave a sweep at most {MOST_POINTS:g} points, "
+                f"tilt_step_deg: must leave a sweep at most {MAX_POINTS:g} points, "
                 f"got {self.tilt_step_deg:g} deg"
             )
 

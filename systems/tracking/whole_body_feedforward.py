@@ -94,19 +94,19 @@ class WholeBodyFeedforward(LeafSystem):
     """
 
     def __init__(
-        self, plant: MultibodyPlant, robot: RobotModel, largest_acceleration: float
+        self, plant: MultibodyPlant, robot: RobotModel, max_acceleration: float
     ) -> None:
         """Declares the ports.
 
         Args:
             plant: the robot alone, finalised.
             robot: its names.
-            largest_acceleration: accelerations are clamped to this, rad/s^2: a tick in
+            max_acceleration: accelerations are clamped to this, rad/s^2: a tick in
                 which the reference velocity jumps is no reason for a torque spike.
         """
         super().__init__()
         self._plant = plant
-        self._largest = largest_acceleration
+        self._largest = max_acceleration
         self._feet = [plant.GetBodyByName(robot.foot_bodies[foot]) for foot in FEET]
         self._p_BF: Vector = np.array([0.0, 0.0, -robot.sole.ankle_height])
         actuators = [

@@ -40,7 +40,7 @@ START, GOAL = np.array([-2.5, 0.0]), np.array([2.5, 0.0, 0.0])
 
 def depth_image(seed: int, count: int = 8) -> DepthImage:
     """A VGA image of a room with eight boxes."""
-    clutter = ClutterParams(seed=seed, least_count=count, most_count=count)
+    clutter = ClutterParams(seed=seed, min_count=count, max_count=count)
     boxes = place_boxes(clutter, np.array([START, GOAL[:2]]))
     solids = [*RoomParams(height=4.0).solids(), *(box.solid() for box in boxes)]
     caster = RayCaster(triangle_mesh(solids), ())

@@ -52,7 +52,7 @@ PLANNING: dict[tuple[str, Mode], str] = {
     ("crossing", "quasi_static"): "quasi_static_crossing_planning",
 }
 """Which field of `ThinkingParams` holds the time of a plan."""
-MOST_LEGS = 4
+MAX_LEGS = 4
 """After so many plans the next scene is drawn."""
 
 
@@ -174,7 +174,7 @@ def climbs(watch: Stopwatch, count: int, mode: Mode) -> None:
         scene = replace(robot.scenario.scene, staircase=staircase)
         known = Staircase()
         robot.stand(*start)
-        for _ in range(MOST_LEGS):
+        for _ in range(MAX_LEGS):
             points, eye = robot.sweep(scene, seed)
             robot.fix("plane_segmenter", cloud=point_cloud(points), viewpoint=eye)
 
@@ -205,7 +205,7 @@ def crossings(watch: Stopwatch, count: int, mode: Mode) -> None:
         )
         scene = replace(robot.scenario.scene, boxes=[box])
         robot.stand(*start)
-        for _ in range(MOST_LEGS):
+        for _ in range(MAX_LEGS):
             points, eye = robot.sweep(scene, seed)
             find = partial(
                 find_obstacles, points, eye, robot.scenario.parameters.obstacle_finder

@@ -185,12 +185,12 @@ def test_a_number_is_refused_by_name_or_can_be_used(
 @pytest.mark.parametrize(
     ("one", "name", "value"),
     [
-        (CrossingParams, "least_gap", -1.0),
-        (CrossingParams, "least_limit", -1.0),
-        (CrossingParams, "most_short", -1.0),
+        (CrossingParams, "min_gap", -1.0),
+        (CrossingParams, "min_limit_distance", -1.0),
+        (CrossingParams, "max_foot_shortfall", -1.0),
         (CrossingParams, "waist_share", 0.0),
         (CrossingParams, "waist_share", 1.5),
-        (HighCrossingParams, "least_gap", -1.0),
+        (HighCrossingParams, "min_gap", -1.0),
         (HighCrossingParams, "lead_pitch", 1.6),
         (HighCrossingParams, "over_share", 1.1),
         (MotionPlannerParams, "single_support", 1e4),

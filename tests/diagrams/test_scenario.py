@@ -316,7 +316,7 @@ def test_clutter_is_in_place_once_a_scenario_is_loaded(tmp_path: Path) -> None:
 
 def test_a_room_that_is_too_full_is_refused() -> None:
     """The field is named, and how many boxes were to be placed."""
-    message = _message("room", "scene.clutter={least_count: 500, most_count: 500}")
+    message = _message("room", "scene.clutter={min_count: 500, max_count: 500}")
     assert "scene.clutter: " in message
     assert "no room for 500 boxes" in message
 

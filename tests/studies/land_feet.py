@@ -75,7 +75,7 @@ def main() -> None:
                 "sensors.lidar.tilt_step_deg=0.5",
                 "scene.boxes[0].size=[0.05, 1.2, 0.05]",
                 "parameters.crossing.feet.apex=0.15",
-                "parameters.crossing.least_gap=0.02",
+                "parameters.crossing.min_gap=0.02",
                 f"parameters.crossing.feet.profile={profile}",
                 f"parameters.crossing.single_support={support}",
                 f"parameters.landing.swing_gain={gain}",

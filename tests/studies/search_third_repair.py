@@ -99,12 +99,12 @@ def main() -> None:
         if not repairs.path.size:
             continue
         acted += 1
-        freed += report.gap >= ways[way].least_gap
+        freed += report.gap >= ways[way].min_gap
         lines.append(
             f"| {100 * section.height:.1f} x {100 * section.width:.1f} cm | {way} | "
             f"{100 * repairs.shift:.0f} | {100 * repairs.raised:.0f} | "
             f"{100 * repairs.path.min():.1f} | {100 * report.gap:.2f} | "
-            f"{100 * ways[way].least_gap:.2f} |"
+            f"{100 * ways[way].min_gap:.2f} |"
         )
     lines.append("")
     lines.append(

@@ -1,6 +1,6 @@
 """Checking what a cloud file claims to hold against what it can hold."""
 
-MOST_POINTS = 100_000_000
+MAX_POINTS = 100_000_000
 """More would take gigabytes of memory and hours to segment."""
 
 
@@ -20,8 +20,8 @@ def check_claim(points: int, needed: int, held: int) -> None:
             f"is cut short or damaged: its header promises {points:,} points "
             f"({needed:,} bytes), and {held:,} bytes follow"
         )
-    if points > MOST_POINTS:
+    if points > MAX_POINTS:
         raise ValueError(
-            f"has {points:,} points, more than the {MOST_POINTS:,} that are read: "
+            f"has {points:,} points, more than the {MAX_POINTS:,} that are read: "
             "thin it out first"
         )

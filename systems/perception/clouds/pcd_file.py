@@ -12,7 +12,7 @@ from footfall.systems.perception.clouds.cloud_claims import check_claim
 
 LONGEST_HEADER = 65_536
 """Bytes in which the header of a file that is one has ended."""
-MOST_COLUMNS = 4096
+MAX_COLUMNS = 4096
 """Numbers in a point; the longest descriptors have hundreds."""
 LZF_LARGEST_RATIO = 88
 """Of LZF: three bytes stand for at most 264."""
@@ -66,7 +66,7 @@ def _read_data(header: dict[str, list[str]], file: BinaryIO, held: int) -> Vecto
         counts = [int(word) for word in header.get("COUNT", ["1"] * len(fields))]
         width, height = int(header["WIDTH"][0]), int(header.get("HEIGHT", ["1"])[0])
         points = int(header["POINTS"][0]) if "POINTS" in header else width * height
-        if sum(counts) > MOST_COLUMNS:
+        if sum(counts) > MAX_COLUMNS:
             raise ValueError(f"{sum(counts)} numbers in a point")
         metadata = MetaData.model_validate(
             {

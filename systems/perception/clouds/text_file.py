@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from footfall.models.values.vector import Vector
-from footfall.systems.perception.clouds.cloud_claims import MOST_POINTS
+from footfall.systems.perception.clouds.cloud_claims import MAX_POINTS
 
 COMMENTS = ("#", "//", "%")
 """What a line that is no point may start with."""
@@ -174,9 +174,9 @@ def _rows(numbered: Iterable[tuple[int, str]], layout: TableLayout) -> Iterator[
                 f"before it {layout.width})"
             )
         points += 1
-        if points > MOST_POINTS:
+        if points > MAX_POINTS:
             raise _RowError(
-                f"has more than the {MOST_POINTS:,} points that are read: thin it out "
+                f"has more than the {MAX_POINTS:,} points that are read: thin it out "
                 "first"
             )
         yield line.replace(",", ".") if layout.decimal_comma else line

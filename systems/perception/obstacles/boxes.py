@@ -19,7 +19,7 @@ from footfall.models.values.vector import Vector
 from footfall.systems.perception.obstacles.clusters import cluster_points
 from footfall.systems.perception.range_noise import RangeNoise, slide_to_plane
 
-MOST_JUDGES = 400
+MAX_JUDGES = 400
 """Points that a first look at the angles uses; more would not change the choice."""
 MIN_TOP = 12
 """Fewer points make no top; then all points of the cluster bound the box."""
@@ -163,11 +163,11 @@ def even_rectangle(plan: Vector, tail: float) -> tuple[Vector, float, Vector]:
         Its middle, (2,), m; the direction of its x, in [-pi/4, pi/4), rad; its side
         lengths, (2,), m.
     """
-    judges = plan[:: max(1, len(plan) // MOST_JUDGES)]
+    judges = plan[:: max(1, len(plan) // MAX_JUDGES)]
     coarse = np.radians(np.arange(-45.0, 45.0, 3.0))
-    angle = _least_angle(judges, coarse, YAW_TAIL * tail)
+    angle = _min_angle(judges, coarse, YAW_TAIL * tail)
     finer = angle + np.radians(np.arange(-4.0, 4.1, 0.5))
-    angle = _least_angle(plan, finer, YAW_TAIL * tail)
+    angle = _min_angle(plan, finer, YAW_TAIL * tail)
     (low,), (high,) = _spans(plan, np.array([angle]), tail)
     c, s = np.cos(angle), np.sin(angle)
     x, y = (low + high) / 2.0
@@ -177,7 +177,7 @@ def even_rectangle(plan: Vector, tail: float) -> tuple[Vector, float, Vector]:
     return middle, float(angle - quarters * np.pi / 2.0), extent
 
 
-def _least_angle(plan: Vector, angles: Vector, tail: float) -> float:
+def _min_angle(plan: Vector, angles: Vector, tail: float) -> float:
     """The angle, of (m,), rad, whose rectangle is least.
 
     About the true angle the area hardly changes as long as a turn moves the sides by

@@ -15,7 +15,7 @@ SAMPLE = 2000
 """Points whose neighbours are looked at; more would tell the same."""
 LARGE, VAST = 100.0, 1000.0
 """Clouds of these sizes, m, may be of centimetres, and must be of millimetres."""
-LEAST_SURFACE = 0.2
+MIN_SURFACE = 0.2
 """Share of normals that agree on a surface; of noise one in twenty-five does."""
 
 
@@ -144,7 +144,7 @@ def _doubt_gravity(
     up = -gravity_direction(gravity)
     normal = normals[most] * (1.0 if normals[most] @ up >= 0.0 else -1.0)
     slope = float(np.arccos(np.clip(normal @ up, -1.0, 1.0)))
-    if agree[most] < LEAST_SURFACE or slope <= params.slope_tolerance:
+    if agree[most] < MIN_SURFACE or slope <= params.slope_tolerance:
         return ()
     x, y, z = np.round(-normal, 2) + 0.0
     return (

@@ -224,7 +224,7 @@ def bound_patch(plane: FittedPlane, support: Vector, area: float) -> Patch | Non
     except QhullError:
         return None
     corners = local[hull.vertices, :2]
-    angle, low, high = least_rectangle(corners)
+    angle, low, high = min_rectangle(corners)
     size = high - low
     c, s = np.cos(angle), np.sin(angle)
     turn = np.array([[c, -s], [s, c]])
@@ -252,7 +252,7 @@ def plane_axes(normal: Vector, toward: Vector) -> Vector:
     return np.column_stack([x, np.cross(normal, x), normal])
 
 
-def least_rectangle(corners: Vector) -> tuple[float, Vector, Vector]:
+def min_rectangle(corners: Vector) -> tuple[float, Vector, Vector]:
     """The least-area rectangle around a convex polygon, (h, 2), m.
 
     Returns:

@@ -6,7 +6,7 @@ import numpy as np
 
 from footfall.models.robots.robot import Sole
 from footfall.models.values.validation import (
-    LARGEST_SEED,
+    MAX_SEED,
     RIGHT_ANGLE,
     Parameters,
     choice,
@@ -53,7 +53,7 @@ class PlaneSegmenterParams(Parameters):
     """epsilon, largest vertical scale of a tread's segment, m (Sec. 4.3)."""
     stairs: StairLimits = field(default_factory=StairLimits)
     """What passes for a staircase."""
-    seed: int = number(0, least=0, most=LARGEST_SEED)
+    seed: int = number(0, least=0, most=MAX_SEED)
     """Seed of RANSAC."""
     threads: int = number(2, least=1, most=256)
     """Threads for the normals; the result does not depend on it."""

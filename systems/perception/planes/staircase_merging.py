@@ -26,7 +26,7 @@ class StaircaseMapParams(Parameters):
     edge_tolerance: float = number(0.02, "m", above=0.0)
     """Edges this near are two measurements of one edge and are averaged, m; beyond it
     the outer one counts, for hidden parts make a tread look smaller, never larger."""
-    least_overlap: float = number(0.3, above=0.0, most=1.0)
+    min_overlap: float = number(0.3, above=0.0, most=1.0)
     """Least overlap of two rectangles of one tread, as part of the smaller one."""
     max_turn: float = number(0.2, "rad", above=0.0)
     """Most that the directions of two views of one staircase differ, rad."""
@@ -88,7 +88,7 @@ def _match(
     treads: list[PlaneSegment], seen: PlaneSegment, params: StaircaseMapParams
 ) -> int | None:
     """Index of the known tread that `seen` is a view of."""
-    best, match = params.least_overlap, None
+    best, match = params.min_overlap, None
     for index, tread in enumerate(treads):
         if abs(_height_over(tread, seen)) > params.height_tolerance:
             continue

@@ -12,7 +12,7 @@ from scipy.spatial import ConvexHull, QhullError
 
 from footfall.models.values.room import FloorEstimate, FloorPlane
 from footfall.models.values.validation import (
-    LARGEST_SEED,
+    MAX_SEED,
     RIGHT_ANGLE,
     Parameters,
     number,
@@ -64,7 +64,7 @@ class FloorParams(Parameters):
     """What is higher above the floor stands in no one's way, m."""
     noise: RangeNoise = field(default_factory=RangeNoise)
     """Of the sensor."""
-    seed: int = number(0, least=0, most=LARGEST_SEED)
+    seed: int = number(0, least=0, most=MAX_SEED)
     """Of RANSAC's choices."""
 
 

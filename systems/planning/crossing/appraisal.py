@@ -12,7 +12,7 @@ from footfall.systems.planning.crossing.course import Course
 from footfall.systems.planning.crossing.feet import crossing_rows, section_of
 from footfall.systems.planning.crossing.feet_adaptor import Repairs, leg_gaps
 from footfall.systems.planning.crossing.quasi_static_check import (
-    least_margin,
+    min_margin,
     worst_torque,
 )
 from footfall.systems.planning.crossing.report import (
@@ -156,7 +156,7 @@ def static_balance(
         contacts[at],
         quasi.friction,
     )
-    margin = least_margin(
+    margin = min_margin(
         phases,
         com,
         poses,

@@ -45,7 +45,7 @@ class HighCrossingParams(Parameters):
     the shorter step; what the eyes and the feet err comes off them."""
     waist_roll: float = number(0.10, "rad", least=0.0, below=RIGHT_ANGLE)
     """How far the pelvis rolls to raise the hip of the foot over the obstacle, rad."""
-    least_gap: float = number(0.025, "m", least=0.0)
+    min_gap: float = number(0.025, "m", least=0.0)
     """Least distance of the legs to the obstacle as it was seen, m."""
     lead_pitch: float = number(0.2, "rad", above=-RIGHT_ANGLE, below=RIGHT_ANGLE)
     """Pitch of the first foot over the obstacle, rad."""
@@ -111,21 +111,21 @@ class CrossingParams(Parameters):
     filter_stages: int = number(2, least=0, most=10)
     """How often the dynamic filter (CWTG2) is applied. The paper applies it once; the
     second time takes most of what the first leaves (20 mm become 5 mm)."""
-    least_gap: float = number(0.033, "m", least=0.0)
+    min_gap: float = number(0.033, "m", least=0.0)
     """Least distance of the legs to the obstacle as it was seen for a motion to be
     carried out, m: the paper's 3 cm and some millimetres of tracking error."""
-    least_self_distance: float = number(0.003, "m", least=0.0)
+    min_self_distance: float = number(0.003, "m", least=0.0)
     """Least distance of two bodies of the robot that can meet, m."""
-    most_short: float = number(0.003, "m", least=0.0)
+    max_foot_shortfall: float = number(0.003, "m", least=0.0)
     """Most that an ankle of the planned motion may be out of reach, m; the IK makes
     that up in height."""
-    least_limit: float = number(0.02, "rad", least=0.0)
+    min_limit_distance: float = number(0.02, "rad", least=0.0)
     """Least distance of the legs' joints to their limits, rad: as much as the IK that
     tracks the plan keeps itself."""
-    most_zmp_error: float = number(0.05, "m", above=0.0)
+    max_zmp_error: float = number(0.05, "m", above=0.0)
     """Most that the multibody ZMP may leave its reference after CWTG2, m: the sole
     reaches about as far to either side of it."""
-    most_torque: float = number(1.0, above=0.0, most=10.0)
+    max_torque: float = number(1.0, above=0.0, most=10.0)
     """Largest share of a joint's effort limit that single support may take in the plan:
     up to 1.02 the robot passed, from 1.09 on it fell."""
     knee_margin: float = number(0.25, "rad", least=0.0)
@@ -157,7 +157,7 @@ def ways_of_crossing(crossing: CrossingParams) -> tuple[CrossingParams, ...]:
             arm_swing=high.arm_swing,
             inward=high.inward,
             knee_margin=high.knee_margin,
-            least_gap=high.least_gap,
+            min_gap=high.min_gap,
         )
         for margin in high.margins
     ]

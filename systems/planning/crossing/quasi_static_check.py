@@ -76,7 +76,7 @@ def effort_limits(plant: MultibodyPlant) -> dict[str, float]:
     return {item.joint().name(): item.effort_limit() for item in actuators}
 
 
-def least_margin(
+def min_margin(
     phases: tuple[ContactPhase, ...],
     com: Vector,
     feet: Vector,

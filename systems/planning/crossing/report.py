@@ -100,34 +100,34 @@ def refusal_of(report: CrossingReport, crossing: CrossingParams) -> str:
         return ""
     highest = max(obstacle.height for obstacle in report.obstacles)
     what = f"the obstacle of {highest:.2f} m cannot be crossed"
-    if report.gap < crossing.least_gap:
+    if report.gap < crossing.min_gap:
         return (
             f"{what}: a leg comes within {1e3 * report.gap:.0f} mm of it, less "
-            f"than {1e3 * crossing.least_gap:.0f} mm, after all repairs"
+            f"than {1e3 * crossing.min_gap:.0f} mm, after all repairs"
         )
-    if report.short > crossing.most_short:
+    if report.short > crossing.max_foot_shortfall:
         return f"{what}: a leg is {1e3 * report.short:.0f} mm too short"
-    if report.limit_distance < crossing.least_limit:
+    if report.limit_distance < crossing.min_limit_distance:
         return (
             f"{what}: {report.limit_joint} comes within {report.limit_distance:.2f} "
-            f"rad of its limit, less than {crossing.least_limit:.2f} rad"
+            f"rad of its limit, less than {crossing.min_limit_distance:.2f} rad"
         )
-    if report.torque_share > crossing.most_torque:
+    if report.torque_share > crossing.max_torque:
         return (
             f"{what}: {report.torque_joint} takes {report.torque_share:.2f} of its "
-            f"effort limit, more than {crossing.most_torque:.2f}"
+            f"effort limit, more than {crossing.max_torque:.2f}"
         )
-    if report.self_distance < crossing.least_self_distance:
+    if report.self_distance < crossing.min_self_distance:
         return (
             f"{what}: {' and '.join(report.self_bodies)} come within "
             f"{1e3 * report.self_distance:.0f} mm of each other, less than "
-            f"{1e3 * crossing.least_self_distance:.0f} mm"
+            f"{1e3 * crossing.min_self_distance:.0f} mm"
         )
     error = max(report.zmp_error_after)
-    if error > crossing.most_zmp_error:
+    if error > crossing.max_zmp_error:
         return (
             f"{what}: Eq. 20: the ZMP leaves its reference by {1e3 * error:.0f} mm, "
-            f"more than {1e3 * crossing.most_zmp_error:.0f} mm"
+            f"more than {1e3 * crossing.max_zmp_error:.0f} mm"
         )
     balance, quasi = report.balance, crossing.quasi_static
     if balance is None:

@@ -39,7 +39,7 @@ class PathExecutiveParams(Parameters):
     body_radius: float = number(0.22, "m", least=0.0)
     """What the walking body takes around each sole, m: a box that comes nearer blocks
     the step. Less than what paths keep, so that the noise of a box's edge does not."""
-    most_plans: int = number(20, least=1)
+    max_plans: int = number(20, least=1)
     """After this many plans the task is given up."""
 
 
@@ -170,7 +170,7 @@ def _plan(
         before, path_plan=sources.path(), footstep_plan=footsteps
     )
     status, reason = footsteps.status, footsteps.reason
-    if status == "planned" and before.plans >= params.most_plans:
+    if status == "planned" and before.plans >= params.max_plans:
         status, reason = "infeasible", f"not there after {before.plans} plans"
     if status != "planned":
         return _turn_to(known, "stand", ready, status, reason)

@@ -25,7 +25,7 @@ from footfall.systems.planning.footsteps.foothold import (
     SIDE,
     Refusal,
     heading,
-    least_width,
+    min_width,
     rotate,
     sole_corners,
     tilt,
@@ -124,7 +124,7 @@ def _walk(
     low, high = np.empty(2 * n), np.empty(2 * n)
     low[0::2], high[0::2] = -params.max_back_step, params.max_step_length
     for k, f in enumerate(feet):
-        least = least_width(turn, f, sole, params.sole_gap)
+        least = min_width(turn, f, sole, params.sole_gap)
         widths = (SIDE[f] * least, SIDE[f] * params.max_stance_width)
         nominal[2 * k + 1] = SIDE[f] * params.stance_width
         low[2 * k + 1], high[2 * k + 1] = sorted(widths)

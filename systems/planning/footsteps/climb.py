@@ -16,7 +16,7 @@ from footfall.systems.planning.footsteps.foothold import (
     foothold_x,
     heading,
     lateral_interval,
-    least_width,
+    min_width,
     rotate,
     sole_pose,
     tilt,
@@ -168,7 +168,7 @@ def _refuse_reach(
             f"than {degrees(params.max_turn):.1f} deg"
         )
     width = SIDE[step.foot] * y
-    least = least_width(turn, step.foot, sole, params.sole_gap)
+    least = min_width(turn, step.foot, sole, params.sole_gap)
     if not least - 1e-9 <= width <= params.max_stance_width + 1e-9:
         return Refusal(
             f"needs the {step.foot} foot {width:.2f} m beside the other one, outside "

@@ -184,7 +184,7 @@ def foothold_x(
     return float(centre[0] + (x_R - sin(turn) * (y - centre[1])) / cos(turn))
 
 
-def least_width(turn: float, foot: Foot, sole: Sole, gap: float) -> float:
+def min_width(turn: float, foot: Foot, sole: Sole, gap: float) -> float:
     """Least lateral distance of a foot from the stance foot, m.
 
     Beyond it the two soles are apart by `gap` whatever their sagittal distance.

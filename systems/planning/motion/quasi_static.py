@@ -103,7 +103,7 @@ class _Builder:
             way = float(np.hypot(moved[0], moved[1]) + moved[2])
             way += 2.0 * self._params.swing.apex_clearance
         duration = max(
-            params.least_time,
+            params.min_time,
             float(np.linalg.norm(com - self.com)) / params.com_speed,
             way / params.foot_speed,
         )

@@ -16,7 +16,7 @@ class QuasiStaticParams(Parameters):
     """Mean speed of the CoM along its lines, m/s: the ZMP stays within 2 cm of it."""
     foot_speed: float = number(0.20, "m/s", least=1e-3)
     """Mean speed of the free foot along its way, m/s."""
-    least_time: float = number(1.2, "s", least=0.05, most=60.0)
+    min_time: float = number(1.2, "s", least=0.05, most=60.0)
     """A segment lasts at least this long, s."""
     rest: float = number(0.1, "s", least=0.0, most=60.0)
     """Standing still between two segments, s."""

@@ -21,7 +21,7 @@ from footfall.systems.planning.footsteps.foothold import (
     SIDE,
     Refusal,
     heading,
-    least_width,
+    min_width,
     sole_outline,
     wrap,
 )
@@ -120,7 +120,7 @@ def step_reach(
         sole: both soles.
         turn_share: share of the largest turn that is used.
     """
-    narrowest = least_width(0.0, "left", sole, params.sole_gap)
+    narrowest = min_width(0.0, "left", sole, params.sole_gap)
     wider = params.max_stance_width - params.stance_width
     return StepReach(
         forward=params.max_step_length,
@@ -173,7 +173,7 @@ def _refuse(
         c, s = np.cos(stance[2]), np.sin(stance[2])
         x, y = np.array([[c, s], [-s, c]]) @ (landing[:2] - stance[:2])
         width = SIDE[foot] * y
-        least = least_width(turn, foot, sole, params.sole_gap)
+        least = min_width(turn, foot, sole, params.sole_gap)
         if abs(turn) > params.max_turn + 1e-9:
             return Refusal(
                 f"step {k + 1} would turn the {foot} foot by {degrees(turn):.0f} deg "

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from footfall.models.values.validation import LARGEST_SEED, Parameters, number
+from footfall.models.values.validation import MAX_SEED, Parameters, number
 
 
 @dataclass(kw_only=True)
@@ -30,7 +30,7 @@ class PathPlannerParams(Parameters):
     takes the wrong side of a box."""
     shortcuts: int = number(120, least=0)
     """How many random shortcuts a path is offered."""
-    seed: int = number(1, least=0, most=LARGEST_SEED)
+    seed: int = number(1, least=0, most=MAX_SEED)
     """Of the samples and shortcuts."""
 
     @property

@@ -73,9 +73,9 @@ def test_what_cannot_be_done_is_said(cross, changes: list[str], answer: str) -> 
 
 def test_clutter_that_has_no_room_is_bad_input(cross) -> None:
     """Exit status 2, and nothing is run."""
-    result = cross("scene.clutter={least_count: 60, most_count: 60}")
+    result = cross("scene.clutter={min_count: 60, max_count: 60}")
     assert result.exit_code == 2
-    assert "scene.clutter: most_count: no room for 60 boxes" in result.stderr
+    assert "scene.clutter: max_count: no room for 60 boxes" in result.stderr
     assert not Path("out").exists()
 
 

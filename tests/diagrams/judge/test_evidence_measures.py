@@ -13,9 +13,9 @@ from footfall.diagrams.judge.evidence_measures import (
     dcm_error,
     foot_contacts,
     footsteps,
-    largest_friction_ratio,
-    largest_impact,
-    largest_slip,
+    max_friction_ratio,
+    max_impact,
+    max_slip,
     min_static_margin,
     steps_climbed,
 )
@@ -41,9 +41,9 @@ def test_contacts_footsteps_and_forces(climb: Evidence) -> None:
     impact = np.full((SAMPLES, 2), WEIGHT)
     impact[300:, 1] = 1.5 * WEIGHT
     frames = {**climb.frames, "contact_monitor.impact": frame(impact)}
-    assert largest_impact(replace(climb, frames=frames)) == pytest.approx(1.5)
-    assert largest_friction_ratio(climb) == pytest.approx(0.25)
-    assert largest_slip(climb, felt) == 0.0
+    assert max_impact(replace(climb, frames=frames)) == pytest.approx(1.5)
+    assert max_friction_ratio(climb) == pytest.approx(0.25)
+    assert max_slip(climb, felt) == 0.0
     assert foot_wrenches(replace(climb, frames={})) is None
     assert foot_contacts(climb, None) is None
 

@@ -23,14 +23,14 @@ def test_boxes_are_as_asked_for(seed: int) -> None:
     """Count, sides, gaps and clear places hold for every seed."""
     params = ClutterParams(seed=seed)
     boxes = place_boxes(params, CLEAR)
-    assert params.least_count <= len(boxes) <= params.most_count
+    assert params.min_count <= len(boxes) <= params.max_count
     prints = [_footprint(box) for box in boxes]
     for i, (box, outline) in enumerate(zip(boxes, prints, strict=True)):
         assert params.area[0] <= box.x <= params.area[1]
         assert params.area[2] <= box.y <= params.area[3]
-        assert min(box.size) >= params.least_side
-        assert max(box.size[:2]) <= params.most_side
-        assert box.size[2] <= params.most_height
+        assert min(box.size) >= params.min_side
+        assert max(box.size[:2]) <= params.max_side
+        assert box.size[2] <= params.max_height
         assert all(outline.distance(other) >= params.gap for other in prints[:i])
         for p in CLEAR:
             assert outline.distance(shapely.Point(p)) >= params.keep_clear
@@ -48,14 +48,14 @@ def test_same_seed_same_room() -> None:
 
 def test_a_full_room_is_an_error() -> None:
     """Where there is no room for the boxes it says so."""
-    params = ClutterParams(area=[-0.2, 0.2, -0.2, 0.2], least_count=6)
+    params = ClutterParams(area=[-0.2, 0.2, -0.2, 0.2], min_count=6)
     with pytest.raises(ValueError, match="no room"):
         place_boxes(params, CLEAR)
 
 
 @pytest.mark.parametrize(
     ("field", "value"),
-    [("area", [1.0, -1.0, 0.0, 1.0]), ("most_count", 2), ("least_side", 0.0)],
+    [("area", [1.0, -1.0, 0.0, 1.0]), ("max_count", 2), ("min_side", 0.0)],
 )
 def test_wrong_parameters_are_named(field: str, value: object) -> None:
     """The message begins with the field."""

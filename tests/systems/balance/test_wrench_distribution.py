@@ -308,7 +308,7 @@ def test_poses_may_stand_anywhere() -> None:
         ("force_weight", -1.0),
         ("yaw_weight", np.inf),
         ("edge_margin", -0.001),
-        ("least_force", np.nan),
+        ("min_force", np.nan),
         ("moment_cost", [1.0, 2.0]),
         ("moment_cost", [1.0, -2.0, 3.0]),
     ],

@@ -40,7 +40,7 @@ def test_the_first_jerk_is_the_minimiser() -> None:
     wanted = np.linspace(0.0, 0.2, n)
     jerk = -(state @ gains.K_x + gains.K_p @ wanted)
 
-    def least_cost(first: float) -> float:
+    def min_cost(first: float) -> float:
         rest = wanted - gains.P_x @ state - gains.P_u[:, 0] * first
         A = np.vstack([gains.P_u[:, 1:], np.sqrt(PARAMS.jerk_weight) * np.eye(n - 1)])
         b = np.concatenate([rest, np.zeros(n - 1)])
@@ -48,8 +48,8 @@ def test_the_first_jerk_is_the_minimiser() -> None:
         error = A @ solution - b
         return float(error @ error + PARAMS.jerk_weight * first**2)
 
-    assert least_cost(jerk) < least_cost(jerk + 0.05)
-    assert least_cost(jerk) < least_cost(jerk - 0.05)
+    assert min_cost(jerk) < min_cost(jerk + 0.05)
+    assert min_cost(jerk) < min_cost(jerk - 0.05)
 
 
 def test_it_moves_the_com_like_kajitas_preview() -> None:

@@ -48,7 +48,7 @@ def test_it_is_weighted_by_load() -> None:
     X_WF = matrices([RigidTransform([0.0, y, 0.0]) for y in (0.1, -0.1)])
     wrenches = np.array([[0, 0, share, 0, 0, 0] for share in (450.0, 150.0)])
     np.testing.assert_allclose(measured_zmp(X_WF, wrenches), [0.0, 0.05, 0.0])
-    assert np.isnan(measured_zmp(X_WF, wrenches, least_force=601.0)).all()
+    assert np.isnan(measured_zmp(X_WF, wrenches, min_force=601.0)).all()
 
 
 def random_pose(rng: np.random.Generator) -> RigidTransform:

@@ -208,10 +208,8 @@ def test_more_points_than_can_be_read(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A file that does hold too many is refused as well, of whatever kind it is."""
-    monkeypatch.setattr(
-        "footfall.systems.perception.clouds.cloud_claims.MOST_POINTS", 9
-    )
-    monkeypatch.setattr("footfall.systems.perception.clouds.text_file.MOST_POINTS", 9)
+    monkeypatch.setattr("footfall.systems.perception.clouds.cloud_claims.MAX_POINTS", 9)
+    monkeypatch.setattr("footfall.systems.perception.clouds.text_file.MAX_POINTS", 9)
     for name, write in WRITERS.items():
         write(tmp_path / name)
         with pytest.raises(CloudFileError, match=r"more than the 9"):

@@ -7,8 +7,8 @@ from footfall.systems.perception.planes.planes import FittedPlane as Plane
 from footfall.systems.perception.planes.planes import (
     bound_patch,
     fit_plane,
-    least_rectangle,
     make_patches,
+    min_rectangle,
     ransac_planes,
 )
 from footfall.systems.perception.planes.voxels import voxelize
@@ -91,7 +91,7 @@ def test_least_rectangle_of_a_turned_rectangle(angle: float) -> None:
     c, s = np.cos(angle), np.sin(angle)
     turn = np.array([[c, -s], [s, c]])
     corners = np.array([[-0.5, -0.2], [0.5, -0.2], [0.5, 0.2], [-0.5, 0.2]])
-    found, low, high = least_rectangle(corners @ turn.T + [3.0, -2.0])
+    found, low, high = min_rectangle(corners @ turn.T + [3.0, -2.0])
     np.testing.assert_allclose(high - low, [0.4, 1.0], atol=1e-7)
     axis = np.array([np.cos(found), np.sin(found)])
     assert abs(axis @ turn[:, 1]) == pytest.approx(1.0)

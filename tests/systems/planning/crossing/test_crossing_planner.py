@@ -121,7 +121,7 @@ def test_at_the_goal_it_stands() -> None:
         (
             NEAR,
             CrossingParams(
-                least_gap=0.2, max_repairs=0, high=HighCrossingParams(least_gap=0.2)
+                min_gap=0.2, max_repairs=0, high=HighCrossingParams(min_gap=0.2)
             ),
             "dynamic",
             "mm of it, less than 200 mm, after all repairs",
@@ -134,20 +134,20 @@ def test_at_the_goal_it_stands() -> None:
         ),
         (
             NEAR,
-            CrossingParams(filter_stages=0, most_zmp_error=0.03),
+            CrossingParams(filter_stages=0, max_zmp_error=0.03),
             "dynamic",
             "Eq. 20: the ZMP leaves its reference by",
         ),
         (
             NEAR,
-            CrossingParams(most_torque=0.5),
+            CrossingParams(max_torque=0.5),
             "dynamic",
             "KNEE takes 0.",
         ),
         (
             NEAR,
             CrossingParams(
-                least_limit=0.3, inward=0.0, high=HighCrossingParams(inward=0.0)
+                min_limit_distance=0.3, inward=0.0, high=HighCrossingParams(inward=0.0)
             ),
             "dynamic",
             "rad of its limit, less than 0.30 rad",
@@ -245,7 +245,7 @@ def test_a_wrong_parameter_is_refused() -> None:
 def test_a_high_obstacle_is_crossed_in_the_second_way() -> None:
     """Where the first way is refused, in the pace and with the margins of the other."""
     high = replace(NEAR, height=0.25)
-    first_only = CrossingParams(high=HighCrossingParams(least_gap=0.5))
+    first_only = CrossingParams(high=HighCrossingParams(min_gap=0.5))
     assert _steps(*_make(high, crossing=first_only)).status == "infeasible"
     motion = _motion(*_make(high))
     assert isinstance(motion, CrossingMotion)
@@ -254,7 +254,7 @@ def test_a_high_obstacle_is_crossed_in_the_second_way() -> None:
     assert last - first == pytest.approx(
         2.0 * params.single_support + params.double_support
     )
-    assert motion.report.gap > params.least_gap
+    assert motion.report.gap > params.min_gap
     assert motion.report.way == 1
 
 

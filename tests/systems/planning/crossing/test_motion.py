@@ -225,7 +225,7 @@ def test_the_third_repair_acts_where_the_others_do_not(
 def test_a_thigh_that_meets_the_pelvis_is_refused(motion: CrossingMotion) -> None:
     """With both names; the crossing as it is keeps them apart."""
     params = CrossingParams()
-    assert motion.report.self_distance > params.least_self_distance
+    assert motion.report.self_distance > params.min_self_distance
     straight = CrossingParams(inward=0.0, waist_roll=0.0)
     meeting, _ = planned(0.05, 0.15, straight)
     assert meeting.report.self_distance < 0.0

@@ -159,7 +159,7 @@ def test_gives_up_after_so_many_plans() -> None:
         1.0,
         environment=Environment(),
         footsteps=PLANNED,
-        params=replace(PARAMS, most_plans=3),
+        params=replace(PARAMS, max_plans=3),
     )
     assert after.status == TaskStatus("infeasible", "stand", "not there after 3 plans")
 
@@ -337,7 +337,7 @@ def test_a_box_blocks_within_the_bodys_radius_of_a_sole(
 
 @pytest.mark.parametrize(
     ("field", "value"),
-    [("period", 0.0), ("look_period", -1.0), ("settle_time", -0.1), ("most_plans", 0)],
+    [("period", 0.0), ("look_period", -1.0), ("settle_time", -0.1), ("max_plans", 0)],
 )
 def test_wrong_parameters_are_named(field: str, value: float) -> None:
     """The message begins with the field."""

@@ -14,7 +14,7 @@ from footfall.systems.planning.footsteps.foothold import (
     foothold_x,
     front_edge,
     lateral_interval,
-    least_width,
+    min_width,
     plane_height,
     rotate,
     sole_outline,
@@ -87,10 +87,10 @@ def test_the_front_edge_is_where_the_rectangle_begins(turn: float) -> None:
 @pytest.mark.parametrize("turn", [-0.26, -0.1, 0.0, 0.1, 0.26])
 def test_feet_at_the_least_width_are_apart_by_the_gap(turn: float) -> None:
     """The nearest corner of the moved sole is `gap` off the stance sole's side."""
-    width = least_width(turn, "left", SOLE, 0.03)
+    width = min_width(turn, "left", SOLE, 0.03)
     corners = rotate(turn, sole_outline(SOLE)) + np.array([0.0, width])
     assert corners[:, 1].min() - SOLE.half_width == pytest.approx(0.03)
-    assert least_width(-turn, "right", SOLE, 0.03) == pytest.approx(width)
+    assert min_width(-turn, "right", SOLE, 0.03) == pytest.approx(width)
 
 
 def test_the_height_of_a_tilted_plane_is_that_of_its_points() -> None:

@@ -84,7 +84,7 @@ def test_a_segment_takes_as_long_as_its_way(step_24cm: MotionTask) -> None:
     moved = np.abs(rear.end[0, :3] - rear.start[0, :3])
     along = np.hypot(0.327 + 0.12 - 0.035, -0.087 - 0.087)
     ways = [
-        quasi.least_time,
+        quasi.min_time,
         (0.327 + 0.24 + up_and_down) / quasi.foot_speed,
         None,
         None,
