@@ -148,6 +148,36 @@ def run(
     raise typer.Exit(DONE if summary.outcome == "completed" else NOT_DONE)
 
 
+@app.command("check-robot")
+def check_robot_command(
+    robot: Annotated[
+        str,
+        typer.Argument(
+            metavar="FILE", help="A robot's YAML file, or the name of a shipped robot."
+        ),
+    ],
+) -> None:
+    """Check a robot of one's own: what is missing, what was derived, does it stand?
+
+    Everything in the file that does not fit the URDF is told, a line each. A robot
+    that fits is simulated: it stands for two seconds on contact.
+    """
+    with _bad_input_in_one_line():
+        from footfall.diagrams.robots.robot_report import check_robot
+        from footfall.models.robots.robot_errors import RobotError
+
+        _quiet_drake()
+        try:
+            report = check_robot(robot)
+        except RobotError as error:
+            for line in str(error).splitlines():
+                typer.echo(f"footfall: {line}", err=True)
+            raise typer.Exit(BAD_INPUT) from None
+    for line in report.lines():
+        typer.echo(line)
+    raise typer.Exit(DONE if report.stands else NOT_DONE)
+
+
 @app.command()
 def segment(
     cloud: Annotated[
@@ -371,7 +401,8 @@ def _message(error: Exception) -> str:
     """What the system says of a file comes with its name first, as ours does."""
     if isinstance(error, OSError) and error.filename is not None and error.strerror:
         return f"{error.filename}: {error.strerror}"
-    return getattr(error, "strerror", None) or str(error)
+    one_line = getattr(error, "strerror", None) or getattr(error, "one_line", None)
+    return one_line or str(error)
 
 
 def _bad_input_errors() -> tuple[type[Exception], ...]:
@@ -380,6 +411,7 @@ def _bad_input_errors() -> tuple[type[Exception], ...]:
         ("footfall.diagrams.run_folder", "OutError"),
         ("footfall.diagrams.scenario", "ScenarioError"),
         ("footfall.diagrams.signals", "RunError"),
+        ("footfall.models.robots.robot_errors", "RobotError"),
         ("footfall.systems.perception.clouds.cloud_files", "CloudFileError"),
         ("footfall.systems.perception.room.environment_xml", "EnvironmentFileError"),
     )

@@ -99,8 +99,8 @@ def check(data: object, schema: Any, path: str = "") -> None:
 
     Args:
         data: plain data.
-        schema: bool, int, float, str, a dataclass, a list of one of them, or one of
-            them or None.
+        schema: bool, int, float, str, a dataclass, a list of one of them, a dict from
+            str to one of them, or one of them or None.
         path: where the data lies in the document.
 
     Raises:
@@ -116,6 +116,11 @@ def check(data: object, schema: Any, path: str = "") -> None:
             raise FieldError(path, f"must be a list, got {_shown(data)}")
         for index, item in enumerate(data):
             check(item, arguments[0], f"{path}[{index}]")
+    elif origin is dict:
+        if not isinstance(data, dict):
+            raise FieldError(path, f"must hold fields, got {_shown(data)}")
+        for name, item in data.items():
+            check(item, arguments[1], _join(path, str(name)))
     elif dataclasses.is_dataclass(schema):
         _check_fields(data, schema, path)
     elif schema is bool:

@@ -175,7 +175,7 @@ def leg_sticks(
     robot = data.run.scenario.robot.model()
     context = plant.CreateDefaultContext()
     hip = plant.GetJointByName(robot.leg_joints[foot][0]).frame_on_parent()
-    shank = plant.GetJointByName(robot.leg_joints[foot][3]).child_body()
+    shank = plant.GetJointByName(robot.knee_joints[foot]).child_body()
     ankle = plant.GetBodyByName(robot.foot_bodies[foot])
     toe, heel, floor = outline.toe, -outline.heel, float(outline.foot[:, 1].min())
     chains, outlines = [], []

@@ -4,8 +4,8 @@ import xml.etree.ElementTree as ET
 from dataclasses import dataclass
 
 import numpy as np
-import trimesh
 
+from footfall.models.robots.link_geometry import link_shapes
 from footfall.models.robots.robot import RobotModel
 from footfall.models.robots.robot_loader import prepared_urdf
 from footfall.models.values.vector import Vector
@@ -28,14 +28,10 @@ def collision_hulls(robot: RobotModel) -> tuple[CollisionHull, ...]:
     hulls = []
     for link in ET.fromstring(prepared_urdf(robot)).findall("link"):
         pieces = [
-            np.asarray(trimesh.load_mesh(_path(mesh)).vertices, dtype=np.float64)
-            for mesh in link.findall("collision/geometry/mesh")
+            np.asarray(shape.mesh().vertices, dtype=np.float64)
+            for shape in link_shapes(link, "collision", robot.urdf, robot.packages, {})
         ]
         if pieces:
             vertices = np.unique(np.vstack(pieces), axis=0)
             hulls.append(CollisionHull(link.attrib["name"], vertices))
     return tuple(hulls)
-
-
-def _path(mesh: ET.Element) -> str:
-    return mesh.attrib["filename"].removeprefix("file://")
