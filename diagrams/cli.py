@@ -163,7 +163,7 @@ def check_robot_command(
     that fits is simulated: it stands for two seconds on contact.
     """
     with _bad_input_in_one_line():
-        from footfall.diagrams.robots.robot_report import check_robot
+        from footfall.diagrams.robot_report import check_robot
         from footfall.models.robots.robot_errors import RobotError
 
         _quiet_drake()
@@ -200,6 +200,15 @@ def segment(
             help="Steepest plane that is kept, in degrees from the horizontal.",
         ),
     ] = SLOPE,
+    robot: Annotated[
+        str | None,
+        typer.Option(
+            metavar="FILE",
+            help="A robot's YAML file: what is smaller than its sole is no plane to "
+            "stand on; by default JVRC-1's.",
+            show_default=False,
+        ),
+    ] = None,
     out: Annotated[
         Path | None,
         typer.Option(
@@ -220,7 +229,12 @@ def segment(
         direction = _parse_direction(gravity)
         params = PlaneSegmenterParams(slope_tolerance=_parse_slope(slope))
         target = out or Path("segmented") / cloud.stem
-        result = segment_file(cloud, direction, target, params)
+        sole = None
+        if robot is not None:
+            from footfall.diagrams.robots.robot_files import load_robot
+
+            sole = load_robot(robot).sole
+        result = segment_file(cloud, direction, target, params, sole)
     found = result.segmentation
     typer.echo(
         f"{result.points} points: {len(found.planes)} planes, "

@@ -59,7 +59,7 @@ from footfall.systems.sensing.tilting_lidar import TiltingLidarParams
 from footfall.systems.thinking import ThinkingParams
 from footfall.systems.tracking.whole_body_ik import IkParams
 
-ONLY_DYNAMIC = ("room_crossing", "standing")
+ONLY_DYNAMIC = ("room_crossing", "stand")
 """Tasks that are not done quasi-static."""
 APPROXIMATIONS = ("lagged", "similar", "sap")
 """What Drake offers of its contact problem that is convex."""

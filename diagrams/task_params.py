@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 from footfall.models.values.validation import LARGEST, Parameters, choice, number
 
-TASKS = ("stair_climbing", "room_crossing", "obstacle_crossing", "standing")
+TASKS = ("stair_climbing", "room_crossing", "obstacle_crossing", "stand")
 """What a robot may be asked to do."""
 MODES = ("dynamic", "quasi_static")
 """How it may do it."""
@@ -41,7 +41,7 @@ class TaskParams(Parameters):
     kind: str = choice("stair_climbing", TASKS)
     """What: "stair_climbing", up the staircase to its top tread; "room_crossing", over
     the floor to `goal`; "obstacle_crossing", the same over what lies in the way;
-    "standing", where it is for `stand_time`."""
+    "stand", where it is for `stand_time`."""
     mode: str = choice("dynamic", MODES)
     """How: "dynamic", with a moving ZMP under a stabiliser; "quasi_static", so slowly
     that the ZMP stays near a CoM that is always over the stance; only on stairs and
@@ -49,10 +49,10 @@ class TaskParams(Parameters):
     steps_between_scans: int = number(2, least=1, most=1000)
     """How many treads are climbed before the robot stands and scans again."""
     stand_time: float = number(3.0, "s", above=0.0)
-    """How long the robot stands, s; "standing" only."""
+    """How long the robot stands, s; "stand" only."""
     goal: list[float] = number([2.5, 0.0, 0.0], "m", length=3)
     """Where the midpoint of the feet is to come to and the heading there, in W, x, y,
-    yaw, m and rad; not in "stair_climbing" and "standing"."""
+    yaw, m and rad; not in "stair_climbing" and "stand"."""
     environment: str | None = None
     """An XML file of the floor and the boxes that is used in place of the camera, its
     path from the working folder; "room_crossing" only. Its schema:

@@ -13,7 +13,7 @@ BUILDERS = {
     "obstacle_crossing": build_obstacle_crossing,
     "room_crossing": build_room_crossing,
     "stair_climbing": build_stair_climbing,
-    "standing": build_standing,
+    "stand": build_standing,
 }
 """Who builds which kind of task."""
 

@@ -16,15 +16,15 @@ from footfall.diagrams.schema import (
     plain,
     validate,
 )
-from footfall.models.robots.jvrc1 import FILE, JVRC1
+from footfall.models.robots.jvrc1 import JVRC1
 from footfall.models.robots.robot import RobotModel
 from footfall.models.robots.robot_derivation import robot_model, spelt_out
-from footfall.models.robots.robot_description import RobotDescription
+from footfall.models.robots.robot_description import DEFAULT_FILE, RobotDescription
 from footfall.models.robots.robot_errors import RobotError
 
 ROBOTS: dict[str, RobotModel] = {"jvrc1": JVRC1}
 """The robots that may be named without a file."""
-SHIPPED_FILES: dict[str, Path] = {"jvrc1": FILE}
+SHIPPED_FILES: dict[str, Path] = {"jvrc1": DEFAULT_FILE}
 """What is said of each."""
 SUFFIXES = (".yaml", ".yml")
 """What the name of a robot's file ends with."""

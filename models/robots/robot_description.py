@@ -10,8 +10,15 @@ Joints are named by shell patterns where a field says so: `leg_*_joint` for seve
 """
 
 from dataclasses import dataclass, field
+from pathlib import Path
 
+from pydrake.common.yaml import yaml_load_typed
+
+from footfall.models.robots.robot import Sole
 from footfall.models.values.validation import Parameters, number
+
+DEFAULT_FILE = Path(__file__).with_name("jvrc1.yaml")
+"""The robot of whoever names none."""
 
 
 @dataclass(kw_only=True)
@@ -180,3 +187,22 @@ class RobotDescription(Parameters):
                 raise ValueError(
                     f"convex_pieces.{link}: must be between 1 and 64, got {pieces}"
                 )
+
+
+def read_description(file: Path) -> RobotDescription:
+    """Reads a file that is known to be right.
+
+    Raises:
+        RuntimeError: it is not.
+    """
+    description: RobotDescription = yaml_load_typed(  # type: ignore[no-untyped-call]
+        schema=RobotDescription, filename=str(file)
+    )
+    return description
+
+
+def default_sole() -> Sole:
+    """The sole of the robot of whoever names none, without its URDF."""
+    said = read_description(DEFAULT_FILE).sole
+    assert said is not None
+    return Sole(said.heel, said.toe, said.half_width, said.ankle_height)

@@ -192,7 +192,10 @@ def test_one_seed_rules_the_scanner() -> None:
             "parameters.footstep_planner.stance_width=0.05",
             "parameters.footstep_planner.stance_width: must lie between 0.114 m (two ",
         ),
-        ("robot.name=hrp4", "robot.name: must be one of jvrc1, got 'hrp4'"),
+        (
+            "robot.name=hrp4",
+            "robot.name: must be one of jvrc1, or a file that ends with .yaml, got 'hrp4'",
+        ),
         ("robot.x=20", "robot: must start inside the room, got x 20 m, y 0 m"),
         (
             "task.kind=fly",
