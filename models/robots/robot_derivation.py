@@ -268,8 +268,9 @@ def _working_range(
         joint = urdf.joints[knee]
         if knee in ranges or not np.isfinite([joint.lower, joint.upper]).all():
             continue
-        # The leg folds to the side that the joint turns farther to.
-        folds_up = abs(joint.upper) > abs(joint.lower)
+        # It folds to the side of the posture, or the one that it turns farther to.
+        bent = posture_of(description, urdf).get(knee, 0.0)
+        folds_up = bent > 0.0 or (bent == 0.0 and joint.upper > -joint.lower)
         least = max(joint.lower, STRAIGHTEST_KNEE) if folds_up else joint.lower
         most = joint.upper if folds_up else min(joint.upper, -STRAIGHTEST_KNEE)
         ranges[knee] = (least, most)
