@@ -1,4 +1,4 @@
-"""A scenario names a robot by its file, and what follows from the robot is filled in."""
+"""A scenario names a robot by its file; what follows from the robot is filled in."""
 
 from pathlib import Path
 
