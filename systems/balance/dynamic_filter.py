@@ -37,7 +37,7 @@ class MomentumTrajectory:
 def multibody_zmp(
     trajectory: MomentumTrajectory, zmp_height: Vector | float, period: float
 ) -> Vector:
-    """The ZMP of a motion of the whole robot, Eq. 20.
+    """Computes the ZMP of a motion of the whole robot, Eq. 20 (see `zmp_of_rates`).
 
     The rates of momentum are central differences. The paper prints -L_x' in p_y; with
     L about the world's origin the moment balance gives +L_x', which stands here.

@@ -1,4 +1,4 @@
-"""From the lines of a tilting scanner to a cloud without the robot's own body."""
+"""Assembly of a tilting scanner's lines to a cloud without the robot's own body."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -60,7 +60,7 @@ class SelfFilterBox(Value):
 
 
 def box_around(body_index: int, vertices: Vector) -> SelfFilterBox:
-    """The least box along the body's axes about vertices in its frame, (n, 3), m."""
+    """Computes the least box along the body's axes about vertices, (n, 3), m."""
     least, greatest = vertices.min(axis=0), vertices.max(axis=0)
     centre: Vector = (least + greatest) / 2.0
     return SelfFilterBox(body_index, RigidTransform(centre), greatest - least)
@@ -72,7 +72,7 @@ def remove_own_points(
     body_poses: Sequence[RigidTransform],
     margin: float,
 ) -> Vector:
-    """Points that are not the robot's own (stair paper, Sec. 3).
+    """Removes the points that are the robot's own (stair paper, Sec. 3).
 
     Args:
         p_W: points in W, (n, 3), m.
@@ -100,7 +100,7 @@ def remove_own_points(
 
 @dataclass(frozen=True, eq=False)
 class _Assembly(Value):
-    """What has been taken in so far."""
+    """State: the lines of the present sweep and the last cloud."""
 
     time: float = -math.inf
     """Time of the latest line that was taken in, s."""
@@ -109,7 +109,7 @@ class _Assembly(Value):
     cloud: tuple[Vector, ...] = ()
     """The same of the last finished sweep."""
     sweeps: int = 0
-    """How many sweeps were assembled."""
+    """Number of sweeps assembled."""
 
 
 class ScanAssembler(LeafSystem):

@@ -29,11 +29,11 @@ from footfall.systems.timing import timed
 
 @dataclass(frozen=True, eq=False)
 class _Seen(Thought):
-    """What the last finished sweep showed."""
+    """State: the map of the last finished sweep."""
 
     map: ObstacleMap = field(default_factory=ObstacleMap)
     sweeps: int = 0
-    """How many sweeps were finished then."""
+    """Number of sweeps finished then."""
 
 
 class ObstacleFinder(LeafSystem):

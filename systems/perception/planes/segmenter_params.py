@@ -72,5 +72,5 @@ class PlaneSegmenterParams(Parameters):
             )
 
     def min_voxels(self, sole: Sole) -> int:
-        """Voxels that a sole covers."""
+        """Computes the number of voxels that a sole covers."""
         return int(np.ceil(sole.area / self.voxel_size**2))

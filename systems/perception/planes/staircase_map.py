@@ -1,4 +1,4 @@
-"""What is known of a staircase, scan after scan."""
+"""Map of a staircase, merged scan after scan."""
 
 from dataclasses import dataclass, field, replace
 from typing import Any
