@@ -370,7 +370,7 @@ def _parse_direction(text: str) -> "Vector":
 
 
 def _parse_slope(degrees: float) -> float:
-    """In rad."""
+    """Reads a slope in degrees as rad."""
     if not 0.0 < degrees < 90.0:
         raise OptionError(
             f"--slope: must lie between 0 and 90 degrees, got {degrees:g}"
@@ -385,7 +385,7 @@ def _quiet_drake() -> None:
 
 @contextmanager
 def _run_ends_in_one_line(stop: StopSignals) -> Iterator[None]:
-    """What a signal or a full disk ends says so, and exits with the status of that."""
+    """Ends in one line, with its exit status, what a signal or a full disk ended."""
     from footfall.diagrams.run_folder import RecordingError
 
     try:
@@ -400,7 +400,7 @@ def _run_ends_in_one_line(stop: StopSignals) -> Iterator[None]:
 
 @contextmanager
 def _bad_input_in_one_line() -> Iterator[None]:
-    """What the user can mend ends in one line on stderr and exit status 2."""
+    """Ends what the user can mend in one line on stderr and exit status 2."""
     try:
         yield
     except Exception as error:
@@ -412,7 +412,7 @@ def _bad_input_in_one_line() -> Iterator[None]:
 
 
 def _message(error: Exception) -> str:
-    """What the system says of a file comes with its name first, as ours does."""
+    """Puts the file's name before what the system says of it, as our messages do."""
     if isinstance(error, OSError) and error.filename is not None and error.strerror:
         return f"{error.filename}: {error.strerror}"
     one_line = getattr(error, "strerror", None) or getattr(error, "one_line", None)
@@ -420,7 +420,7 @@ def _message(error: Exception) -> str:
 
 
 def _bad_input_errors() -> tuple[type[Exception], ...]:
-    """Those of what was imported; what was not has raised nothing."""
+    """Lists the errors of what was imported; what was not has raised nothing."""
     homes = (
         ("footfall.diagrams.run_folder", "OutError"),
         ("footfall.diagrams.scenario", "ScenarioError"),

@@ -55,7 +55,7 @@ class RobotReport:
         return self.capabilities[0].able
 
     def lines(self) -> Iterator[str]:
-        """The report as it is printed."""
+        """Writes the report as it is printed."""
         robot = self.robot
         urdf = read_urdf(robot.urdf)
         yield (
@@ -105,7 +105,7 @@ def check_robot(name_or_path: str | Path) -> RobotReport:
 
 
 def _motors(robot: RobotModel, said: Sequence[str]) -> Iterator[tuple[str, str]]:
-    """What was derived of servos and limits, in one line each."""
+    """Says in one line each what was derived of servos and limits."""
     if "servos" not in said:
         knee = robot.gains[robot.knee_joints["left"]]
         ankle = robot.gains[robot.leg_joints["left"][-1]]
@@ -152,7 +152,7 @@ def _stands(robot: RobotModel, scenario: Scenario) -> Capability:
 
 
 def _walks(robot: RobotModel, scenario: Scenario) -> Capability:
-    """Whether the planners' closed-form leg fits it."""
+    """Says whether the planners' closed-form leg fits it."""
     reasons: list[str] = []
     try:
         planning_body(robot, robot_alone(robot))
@@ -169,7 +169,7 @@ def _walks(robot: RobotModel, scenario: Scenario) -> Capability:
 
 
 def _sees(robot: RobotModel) -> Capability:
-    """Whether it has a scanner: what climbs stairs and steps over obstacles needs."""
+    """Says whether it has the scanner that stairs and obstacles are seen with."""
     if robot.head_body is None:
         return Capability("sees", False, ("head_body: no link carries the scanner",))
     place = ", ".join(f"{x:g}" for x in robot.lidar_position)
@@ -179,7 +179,7 @@ def _sees(robot: RobotModel) -> Capability:
 
 
 def _shown(value: object) -> str:
-    """A value as a person reads it, long lists cut short."""
+    """Shows a value as a person reads it, long lists cut short."""
     if isinstance(value, dict):
         items = [f"{key} {_shown(item)}" for key, item in value.items()]
         return _cut(items)

@@ -87,7 +87,7 @@ class RobotParams(Parameters):
     """Where it faces, about z of W from its x, rad."""
 
     def model(self) -> RobotModel:
-        """The robot's names, sole, postures and gains."""
+        """Gives the robot's names, sole, postures and gains."""
         if self.description is not None:
             return model_of(self.description)
         return ROBOTS[self.name]
@@ -213,12 +213,12 @@ class Scenario(Parameters):
     """How all of it is simulated."""
 
     def lidar(self) -> TiltingLidarParams:
-        """The scanner's parameters with the seed of this run."""
+        """Gives the scanner's parameters with the seed of this run."""
         lidar = self.sensors.lidar
         return replace(lidar, seed=lidar.seed + self.simulation.seed)
 
     def controllers(self) -> ControllerParams:
-        """The parameters of the systems, what they share written into each of them.
+        """Gives the parameters of the systems, with what they share in each of them.
 
         What a section itself holds for a number that is shared does not count.
         """
@@ -352,7 +352,7 @@ def load_scenario(name_or_path: str | Path, overrides: Sequence[str] = ()) -> Sc
 
 
 def place_clutter(scenario: Scenario) -> Scenario:
-    """The scenario with the boxes of its clutter in place, drawn with the run's seed.
+    """Places the boxes of the scenario's clutter, drawn with the run's seed.
 
     Raises:
         FieldError: there is no room for them.
@@ -379,7 +379,7 @@ def save_scenario(scenario: Scenario, path: str | Path) -> None:
 
 
 def _read(name_or_path: str | Path) -> tuple[str, str, str]:
-    """What to call the scenario in messages, its name unless it has one, its text."""
+    """Reads a scenario: what messages call it, a name where it has none, its text."""
     path, shipped = Path(name_or_path), shipped_scenarios()
     if str(name_or_path) in shipped:
         name = str(name_or_path)
@@ -402,7 +402,7 @@ def _read(name_or_path: str | Path) -> tuple[str, str, str]:
 
 
 def _concerns(path: str, key: str) -> bool:
-    """Whether one of two paths to a field leads through the other."""
+    """Tells whether one of two paths to a field leads through the other."""
     short, long = sorted((path, key), key=len)
     return bool(short) and (
         short == long or long.startswith((f"{short}.", f"{short}["))

@@ -24,7 +24,7 @@ class FieldError(ValueError):
     """Something is wrong with one field."""
 
     def __init__(self, path: str, reason: str) -> None:
-        """An error at a path such as "scene.boxes[0].size"; empty is the whole."""
+        """Makes an error at a path, "scene.boxes[0].size" say; empty is the whole."""
         super().__init__(f"{path}: {reason}" if path else reason)
         self.path = path
 
@@ -47,7 +47,7 @@ class _UniqueKeyLoader(yaml.SafeLoader):
 
 
 def parse_yaml(text: str) -> Any:
-    """The YAML document as plain data.
+    """Parses a YAML document to plain data.
 
     Raises:
         FieldError: it is not YAML; the line is named.

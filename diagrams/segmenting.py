@@ -230,7 +230,7 @@ def _framed(drawn: Vector, bounds: Vector) -> tuple[float, float]:
 def _labelled(
     segmentation: PlaneSegmentation,
 ) -> list[tuple[PlaneSegment, str, str]]:
-    """Each plane with its colour and label; treads are numbered from the lowest."""
+    """Gives each plane its colour and label; treads are numbered from the lowest."""
     staircase = segmentation.staircase
     drawn = []
     number = 0

@@ -31,7 +31,7 @@ SUFFIXES = (".yaml", ".yml")
 
 
 def is_file(name: str) -> bool:
-    """Whether a robot is named by its file."""
+    """Tells whether a robot is named by its file."""
     return Path(name).suffix.lower() in SUFFIXES
 
 
@@ -53,7 +53,7 @@ def load_robot(name_or_path: str | Path) -> RobotModel:
 
 
 def robot_file(name: str, folder: Path) -> Path:
-    """The file of a robot.
+    """Gives the file of a robot.
 
     Args:
         name: of a shipped robot, or of a file.
@@ -72,7 +72,7 @@ def robot_file(name: str, folder: Path) -> Path:
 
 
 def read_robot_file(file: Path) -> Mapping:
-    """What a robot's file says, as plain data.
+    """Reads a robot's file as plain data.
 
     Raises:
         RobotError: it cannot be read or is not YAML.
@@ -94,7 +94,7 @@ def read_robot_file(file: Path) -> Mapping:
 
 
 def described_robot(data: Mapping, file: Path) -> RobotModel:
-    """The robot of plain data.
+    """Makes the robot of plain data.
 
     Args:
         data: fields of a `RobotDescription`.
@@ -118,7 +118,7 @@ def described_robot(data: Mapping, file: Path) -> RobotModel:
 
 
 def _wrong_fields(data: Mapping) -> Iterator[str]:
-    """What `check` says of each field by itself."""
+    """Lists what `check` says of each field by itself."""
     for name, value in data.items():
         try:
             check({name: value}, RobotDescription)
@@ -127,13 +127,13 @@ def _wrong_fields(data: Mapping) -> Iterator[str]:
 
 
 def resolved(robot: RobotModel) -> RobotDescription:
-    """All that is known of a robot, its paths from the root of the file system."""
+    """Spells out all that is known of a robot, with absolute paths."""
     folders = {name: folder.resolve() for name, folder in robot.packages.items()}
     return spelt_out(replace(robot, urdf=robot.urdf.resolve(), packages=folders))
 
 
 def model_of(description: RobotDescription) -> RobotModel:
-    """The robot of a description of which the paths are absolute.
+    """Makes the robot of a description whose paths are absolute.
 
     Raises:
         RobotError: it does not fit its URDF.

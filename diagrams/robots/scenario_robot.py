@@ -65,7 +65,7 @@ def expand_robot(data: Mapping, file: Path) -> None:
 
 
 def parameters_of(robot: RobotModel) -> dict[str, float]:
-    """The fields of a scenario that follow from the robot, by their paths."""
+    """Gives the fields of a scenario that follow from the robot, by their paths."""
     ahead, height = robot.standing_com
     return {
         "parameters.com_height": height,
@@ -81,7 +81,7 @@ def parameters_of(robot: RobotModel) -> dict[str, float]:
 
 
 def _is_said(data: Mapping, path: str) -> bool:
-    """Whether a document has a field."""
+    """Tells whether a document has a field."""
     for part in path.split("."):
         if not isinstance(data, dict) or part not in data:
             return False

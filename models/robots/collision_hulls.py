@@ -21,7 +21,7 @@ class CollisionHull:
 
 
 def collision_hulls(robot: RobotModel) -> tuple[CollisionHull, ...]:
-    """The hull of every body that collides, around all its pieces.
+    """Computes the hull of every body that collides, around all its pieces.
 
     The soles' rubber is not part of it: a foot's hull ends a little above its sole.
     """

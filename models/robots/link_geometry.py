@@ -59,7 +59,7 @@ class LinkShape:
     """RGBA that the URDF gives it."""
 
     def mesh(self) -> trimesh.Trimesh:
-        """The surface in the link's frame.
+        """Gives the surface in the link's frame.
 
         Raises:
             ValueError: the file holds no triangles.
@@ -76,7 +76,7 @@ class LinkShape:
         return mesh
 
     def scene(self) -> trimesh.Scene:
-        """The mesh file with its materials, scaled, about its own origin, z up."""
+        """Loads the mesh with its materials, scaled, about its own origin, z up."""
         if self.source is None:
             raise TypeError("a primitive has no file")
         scene = trimesh.load_scene(self.source.file)
@@ -96,7 +96,7 @@ def link_shapes(
     packages: Mapping[str, Path],
     colours: Mapping[str, tuple[float, float, float, float]],
 ) -> list[LinkShape]:
-    """The shapes of one link, none where it has none.
+    """Finds the shapes of one link, none where it has none.
 
     Args:
         link: of the URDF.
@@ -189,7 +189,7 @@ def _colour(
 
 
 def _scaled(scene: trimesh.Scene, scale: tuple[float, float, float]) -> trimesh.Scene:
-    """The scene with the scale in its vertices.
+    """Scales the vertices of a scene.
 
     As a node's transform a mirror would leave the triangles inside out.
     """

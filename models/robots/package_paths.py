@@ -21,7 +21,7 @@ PACKAGE = "package://"
 
 
 def find_file(uri: str, beside: Path, packages: Mapping[str, Path]) -> Path:
-    """The file that a URI or a path names.
+    """Finds the file that a URI or a path names.
 
     Args:
         uri: `package://NAME/PATH`, `file://PATH`, or a path.
@@ -50,7 +50,7 @@ def find_file(uri: str, beside: Path, packages: Mapping[str, Path]) -> Path:
 
 
 def _folders(name: str, beside: Path, packages: Mapping[str, Path]) -> Iterator[Path]:
-    """The folders that a package of this name has, the best first."""
+    """Finds the folders that a package of this name has, the best first."""
     if name in packages:
         yield packages[name]
     candidates = [

@@ -260,7 +260,7 @@ def _hint(name: str, known: Sequence[str]) -> str:
 
 
 def _several(names: Sequence[str]) -> str:
-    """The first few names, and how many more."""
+    """Writes the first few names, and how many more."""
     more = len(names) - SHOWN
     shown = ", ".join(names[:SHOWN])
     return f"{shown} and {more} more" if more > 0 else shown

@@ -98,7 +98,7 @@ def robot_model(description: RobotDescription, file: Path) -> RobotModel:
 
 
 def spelt_out(robot: RobotModel) -> RobotDescription:
-    """The description in which nothing is left to derive; `robot_model` reads it back.
+    """Spells the description out, with nothing left to derive; `robot_model` reads it.
 
     Args:
         robot: complete.
@@ -160,7 +160,7 @@ def spelt_out(robot: RobotModel) -> RobotDescription:
 def _skeleton(
     description: RobotDescription, urdf: Urdf, name: str, packages: dict[str, Path]
 ) -> RobotModel:
-    """What the tree of links says; what needs more is zero."""
+    """Reads what the tree of links says; what needs more is zero."""
     base, legs = base_of(description, urdf), legs_of(description, urdf)
     knees, joints = knees_of(description, urdf), moving_joints(description, urdf)
     posture, welded = posture_of(description, urdf), welded_of(description, urdf)
@@ -243,7 +243,7 @@ def _gains(
     legs: dict[Foot, tuple[str, ...]],
     moment: float,
 ) -> JointGains:
-    """The servo that the description gives a joint, or its share of the defaults."""
+    """Chooses a joint's servo: the description's, or its share of the defaults."""
     for group in reversed(description.servos):
         if matching(group.joints, [joint.name]):
             return JointGains(group.stiffness, group.damping, group.reflected_inertia)

@@ -202,7 +202,7 @@ def read_description(file: Path) -> RobotDescription:
 
 
 def default_sole() -> Sole:
-    """The sole of the robot of whoever names none, without its URDF."""
+    """Gives the sole of the robot of whoever names none, without its URDF."""
     said = read_description(DEFAULT_FILE).sole
     assert said is not None
     return Sole(said.heel, said.toe, said.half_width, said.ankle_height)

@@ -12,7 +12,7 @@ class RobotError(ValueError):
     """
 
     def __init__(self, robot: str, problems: Iterable[str]) -> None:
-        """An error of the robot that is called or lies at `robot`."""
+        """Makes an error of the robot that is called or lies at `robot`."""
         self.robot, self.problems = robot, tuple(problems)
         super().__init__("\n".join(f"{robot}: {problem}" for problem in self.problems))
 

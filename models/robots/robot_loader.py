@@ -73,7 +73,7 @@ def joint_limits(robot: RobotModel) -> dict[str, tuple[float, float]]:
 
 
 def body_meshes(robot: RobotModel) -> tuple[BodyMesh, ...]:
-    """The surface of every body of which something is seen."""
+    """Gives the surface of every body of which something is seen."""
     meshes = []
     for link, shapes in _links(robot, parse_xml(robot.urdf)):
         if not shapes.visuals:
@@ -138,7 +138,7 @@ def add_robot(
 
 
 def prepared_urdf(robot: RobotModel) -> str:
-    """The robot's URDF as Drake is given it.
+    """Writes the robot's URDF as Drake is given it.
 
     Its meshes are those of the cache, its fingers are welded, frames without mass and
     transmissions are gone: every joint has one actuator, which `add_robot` makes.
@@ -156,7 +156,7 @@ def prepared_urdf(robot: RobotModel) -> str:
 
 
 def bare_urdf(robot: RobotModel) -> ET.Element:
-    """The links and joints that Drake is given, their geometry as it was published."""
+    """Keeps the links and joints that Drake is given, their geometry as published."""
     root, tree = parse_xml(robot.urdf), read_urdf(robot.urdf)
     dropped = without_mass(tree, named_bodies(robot))
     _spell_out_materials(root)
@@ -203,7 +203,7 @@ def _spell_out_materials(root: ET.Element) -> None:
 
 
 def named_bodies(robot: RobotModel) -> frozenset[str]:
-    """The bodies that the robot's model names."""
+    """Finds the bodies that the robot's model names."""
     named = {robot.base_body, robot.torso_body, *robot.foot_bodies.values()}
     return frozenset(named | ({robot.head_body} if robot.head_body else set()))
 
@@ -321,7 +321,7 @@ def _limit(element: ET.Element, speed: float) -> None:
 
 
 def _cache_folder(robot: RobotModel) -> Path:
-    """One for each state of the URDF, its meshes and what is made of them."""
+    """Names a folder by the state of the URDF, its meshes and what is made of them."""
     digest = hashlib.sha256(robot.urdf.read_bytes())
     made_with = [robot.sole.ankle_height, sorted(robot.convex_pieces.items())]
     digest.update(repr([made_with, sorted(robot.foot_bodies.values())]).encode())
@@ -340,7 +340,7 @@ def _cache_folder(robot: RobotModel) -> Path:
 
 
 def _gltf(shape: LinkShape) -> list[bytes]:
-    """A mesh as glTF to be seen."""
+    """Writes a mesh as glTF to be seen."""
     scene = shape.scene()
     scene.apply_transform(Z_UP_TO_Y_UP)  # type: ignore[no-untyped-call]
     files = export_gltf(scene, embed_buffers=True)  # type: ignore[no-untyped-call]
@@ -392,7 +392,7 @@ def _pieces(mesh: trimesh.Trimesh, count: int) -> list[trimesh.Trimesh]:
 
 
 def _opaque(gltf: bytes) -> bytes:
-    """The same glTF with opaque materials.
+    """Makes the materials of a glTF opaque.
 
     COLLADA's transparency is read as an alpha of 0 where it means that nothing is
     transparent; Meshcat does not mind, VTK then draws nothing.
@@ -406,7 +406,7 @@ def _opaque(gltf: bytes) -> bytes:
 
 
 def _cut(mesh: trimesh.Trimesh, height: float) -> Vector:
-    """Where the mesh's edges cross the plane z = height, (n, 3)."""
+    """Computes where the mesh's edges cross the plane z = height, (n, 3)."""
     ends = mesh.vertices[mesh.edges_unique]
     z = ends[:, :, 2]
     crossing = (z[:, 0] - height) * (z[:, 1] - height) < 0.0

@@ -11,7 +11,7 @@ from footfall.models.values.feet import Foot
 
 
 def matching(patterns: Iterable[str], names: Iterable[str]) -> tuple[str, ...]:
-    """The names that one of the patterns fits, in the order of the patterns."""
+    """Finds the names that one of the patterns fits, in the order of the patterns."""
     known = tuple(names)
     found = [
         name for pattern in patterns for name in known if fnmatchcase(name, pattern)
@@ -20,7 +20,7 @@ def matching(patterns: Iterable[str], names: Iterable[str]) -> tuple[str, ...]:
 
 
 def named_links(description: RobotDescription) -> frozenset[str]:
-    """The links that a description names."""
+    """Finds the links that a description names."""
     feet = description.foot_bodies
     names = (
         description.base_body,
@@ -33,7 +33,7 @@ def named_links(description: RobotDescription) -> frozenset[str]:
 
 
 def kept_joints(description: RobotDescription, urdf: Urdf) -> tuple[UrdfJoint, ...]:
-    """The joints between links that Drake is to see, in the URDF's order."""
+    """Finds the joints between links that Drake is to see, in the URDF's order."""
     dropped = without_mass(urdf, named_links(description))
     return tuple(
         joint
@@ -43,7 +43,7 @@ def kept_joints(description: RobotDescription, urdf: Urdf) -> tuple[UrdfJoint, .
 
 
 def base_of(description: RobotDescription, urdf: Urdf) -> str:
-    """The pelvis: the one that is named, or the root of what has mass."""
+    """Finds the pelvis: the one that is named, or the root of what has mass."""
     if description.base_body is not None:
         return description.base_body
     carried = {joint.child for joint in kept_joints(description, urdf)}
@@ -54,13 +54,13 @@ def base_of(description: RobotDescription, urdf: Urdf) -> str:
 
 
 def foot_links(description: RobotDescription) -> dict[Foot, str]:
-    """The link of either foot."""
+    """Finds the link of either foot."""
     feet = description.foot_bodies
     return {"left": feet.left, "right": feet.right}
 
 
 def legs_of(description: RobotDescription, urdf: Urdf) -> dict[Foot, tuple[str, ...]]:
-    """The joints of both legs: those named, or all that move from pelvis to foot."""
+    """Finds the joints of both legs: those named, or all from pelvis to foot."""
     if description.leg_joints is not None:
         legs = description.leg_joints
         return {"left": tuple(legs.left), "right": tuple(legs.right)}
@@ -72,7 +72,7 @@ def legs_of(description: RobotDescription, urdf: Urdf) -> dict[Foot, tuple[str, 
 
 
 def knees_of(description: RobotDescription, urdf: Urdf) -> dict[Foot, str]:
-    """The joints that bend the knees: those named, or the farthest from both ends."""
+    """Finds the joints of the knees: those named, or the farthest from both ends."""
     if description.knee_joints is not None:
         knees = description.knee_joints
         return {"left": knees.left, "right": knees.right}
@@ -91,7 +91,7 @@ def knees_of(description: RobotDescription, urdf: Urdf) -> dict[Foot, str]:
 
 
 def torso_of(description: RobotDescription, urdf: Urdf) -> str:
-    """The trunk: the one that is named, or the heaviest link outside the legs."""
+    """Finds the trunk: the one that is named, or the heaviest link outside the legs."""
     if description.torso_body is not None:
         return description.torso_body
     legs = {
@@ -106,7 +106,7 @@ def torso_of(description: RobotDescription, urdf: Urdf) -> str:
 
 
 def welded_of(description: RobotDescription, urdf: Urdf) -> tuple[str, ...]:
-    """The joints that are fixed: those named, what mimics, and what carries no mass."""
+    """Finds the fixed joints: those named, what mimics, and what carries no mass."""
     joints = kept_joints(description, urdf)
     named = matching(description.welded_joints, (joint.name for joint in joints))
     besides = (
@@ -118,7 +118,7 @@ def welded_of(description: RobotDescription, urdf: Urdf) -> tuple[str, ...]:
 
 
 def moving_joints(description: RobotDescription, urdf: Urdf) -> tuple[UrdfJoint, ...]:
-    """The joints that get a motor, in the URDF's order."""
+    """Finds the joints that get a motor, in the URDF's order."""
     welded = set(welded_of(description, urdf))
     return tuple(
         joint
@@ -128,7 +128,7 @@ def moving_joints(description: RobotDescription, urdf: Urdf) -> tuple[UrdfJoint,
 
 
 def posture_of(description: RobotDescription, urdf: Urdf) -> dict[str, float]:
-    """The angle of every joint that the posture names, rad; the last pattern counts."""
+    """Gives the angle of every joint of the posture, rad; the last pattern counts."""
     names = [joint.name for joint in kept_joints(description, urdf) if joint.moves]
     return {
         name: angle
@@ -140,7 +140,7 @@ def posture_of(description: RobotDescription, urdf: Urdf) -> dict[str, float]:
 def working_range_of(
     description: RobotDescription, urdf: Urdf
 ) -> dict[str, tuple[float, float]]:
-    """The range of every joint that the description gives one, rad."""
+    """Gives the range of every joint that the description gives one, rad."""
     names = [joint.name for joint in moving_joints(description, urdf)]
     return {
         name: (least, most)

@@ -65,18 +65,18 @@ class Urdf:
         return next(name for name in self.masses if name not in self.above)
 
     def children(self, link: str) -> tuple[UrdfJoint, ...]:
-        """The joints that a link carries."""
+        """Finds the joints that a link carries."""
         return tuple(item for item in self.joints.values() if item.parent == link)
 
     def below(self, link: str) -> tuple[str, ...]:
-        """A link and all that hangs from it."""
+        """Finds a link and all that hangs from it."""
         found = [link]
         for name in found:
             found += [joint.child for joint in self.children(name)]
         return tuple(found)
 
     def chain(self, link: str) -> tuple[UrdfJoint, ...]:
-        """The joints between the root and a link, from the root."""
+        """Finds the joints between the root and a link, from the root."""
         joints: list[UrdfJoint] = []
         while link in self.above:
             joints.append(self.above[link])
@@ -84,7 +84,7 @@ class Urdf:
         return tuple(reversed(joints))
 
     def between(self, base: str, link: str) -> tuple[UrdfJoint, ...]:
-        """The joints between a link and one that hangs from it, from the upper one.
+        """Finds the joints between a link and one below it, from the upper one.
 
         Empty where the second does not hang from the first.
         """
@@ -161,7 +161,7 @@ def parse_xml(path: Path) -> ET.Element:
 
 
 def numbers(text: str | None, default: str) -> Vector:
-    """The numbers of an attribute.
+    """Reads the numbers of an attribute.
 
     Raises:
         ValueError: it holds something else.
@@ -170,7 +170,7 @@ def numbers(text: str | None, default: str) -> Vector:
 
 
 def pose_of(element: ET.Element) -> RigidTransform:
-    """What the `origin` of a joint, visual or collision says; identity without one."""
+    """Reads the `origin` of a joint, visual or collision; identity without one."""
     origin = element.find("origin")
     if origin is None:
         return RigidTransform()
@@ -210,13 +210,13 @@ def _link(joint: ET.Element, end: str) -> str:
 
 
 def _limit(limit: ET.Element | None, key: str) -> float | None:
-    """One of a joint's limits, where it is one."""
+    """Reads one of a joint's limits, where it is one."""
     value = 0.0 if limit is None else float(limit.get(key, "0"))
     return value if 0.0 < value < np.inf else None
 
 
 def without_mass(urdf: Urdf, named: frozenset[str]) -> frozenset[str]:
-    """The links that Drake is not to see: frames that nothing is done with.
+    """Gives the links that Drake is not to see: frames that nothing is done with.
 
     A massless root that only carries the robot, by a fixed or a floating joint, is one
     of them, and so are links of which, and below which, nothing has mass or is named.

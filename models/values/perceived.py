@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass, field
 
-import numpy as np
 from pydrake.math import RigidTransform
 
+from footfall.models.values.geometry import rectangle_corners_world
 from footfall.models.values.value import Value
 from footfall.models.values.vector import Vector
 
@@ -43,10 +43,7 @@ class PlaneSegment(Value):
 
     def corners(self) -> Vector:
         """Computes the rectangle's corners in W, (4, 3), m, counter-clockwise."""
-        half = self.size / 2.0
-        signs = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
-        p_R = np.hstack([signs * half, np.zeros((4, 1))])
-        return np.array(self.X_WR.multiply(p_R.T)).T
+        return rectangle_corners_world(self.X_WR, self.size)
 
 
 @dataclass(frozen=True, eq=False)

@@ -91,7 +91,7 @@ class ObstacleBox(Value):
         return corners + self.center[:2]
 
     def aligned(self) -> tuple[Vector, Vector]:
-        """The axis-aligned box around it: least and greatest corner in W, (3,), m."""
+        """Computes the axis-aligned box around it: both corners in W, (3,), m."""
         corners, half = self.footprint(), self.size[2] / 2.0
         low = np.append(corners.min(axis=0), self.center[2] - half)
         high = np.append(corners.max(axis=0), self.center[2] + half)

@@ -15,6 +15,7 @@ from footfall.models.values.perceived import LaserScan
 from footfall.models.values.validation import Parameters, number
 from footfall.models.values.value import Value
 from footfall.models.values.vector import Vector
+from footfall.systems.held_value import HeldValue
 from footfall.systems.ports import eval_abstract, eval_vector, set_vector
 from footfall.systems.sensing.scan_geometry import line_to_points, tilt_pose
 from footfall.systems.timing import timed
@@ -171,8 +172,8 @@ class ScanAssembler(LeafSystem):
         self._body_poses = self.DeclareAbstractInputPort(
             "body_poses", AbstractValue.Make([RigidTransform()])
         )
-        self._state = self.DeclareAbstractState(AbstractValue.Make(_Assembly()))
-        ticket = {self.abstract_state_ticket(self._state)}
+        self._state = HeldValue(self, _Assembly())
+        ticket = {self._state.ticket}
         calc_cloud: Callable[..., None] = timed(self, self._calc_cloud)
         self.DeclareAbstractOutputPort(
             "cloud",
@@ -188,7 +189,7 @@ class ScanAssembler(LeafSystem):
         )
 
     def _update(self, context: Context, state: State) -> None:
-        was = self._get(context)
+        was = self._state.get(context)
         scan = eval_abstract(self._scan, context, LaserScan)
         if not scan.time > was.time:
             return
@@ -202,20 +203,14 @@ class ScanAssembler(LeafSystem):
         sweeps = int(eval_vector(self._sweep, context)[0])
         if sweeps > was.sweeps:
             now = _Assembly(scan.time, (), now.lines, sweeps)
-        state.get_mutable_abstract_state(int(self._state)).set_value(now)
-
-    def _get(self, context: Context) -> _Assembly:
-        state: Any = context.get_abstract_state(int(self._state))
-        assembly = state.get_value()
-        assert isinstance(assembly, _Assembly)
-        return assembly
+        self._state.set(state, now)
 
     def _calc_cloud(self, context: Context, cloud: AbstractValue) -> None:
-        lines = self._get(context).cloud
+        lines = self._state.get(context).cloud
         points = np.vstack(lines) if lines else np.zeros((0, 3))
         assembled = PointCloud(len(points))
         assembled.mutable_xyzs()[:] = points.T
         cloud.set_value(assembled)
 
     def _calc_sweep(self, context: Context, sweep: BasicVector) -> None:
-        set_vector(sweep, np.array([self._get(context).sweeps], dtype=np.float64))
+        set_vector(sweep, np.array([self._state.get(context).sweeps], dtype=np.float64))

@@ -131,7 +131,7 @@ class WholeBodyIk:
         self._swing = np.array([joint.velocity_start() for joint in swing], dtype=int)
 
     def solve(self, context: Context, target: IkTarget) -> tuple[Vector, bool]:
-        """The generalised velocity of this tick.
+        """Solves for the generalised velocity of this tick.
 
         Args:
             context: of the plant, with the present reference positions.

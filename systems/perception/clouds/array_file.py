@@ -87,7 +87,7 @@ def _read_array(file: IO[bytes], size: int) -> NDArray[Any]:
 
 
 def _points_of(name: str, array: NDArray[Any]) -> Vector:
-    """The points of an array (n, 3 or more), (h, w, 3), or of records with x, y, z."""
+    """Reads the points of an array (n, 3 or more), (h, w, 3), or of x, y, z records."""
     fields = array.dtype.names
     if fields is not None and set("xyz") <= set(fields):
         array = np.stack([array[axis] for axis in "xyz"], axis=-1)

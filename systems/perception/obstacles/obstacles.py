@@ -86,7 +86,7 @@ def find_obstacles(
 
 
 def floor_height(z: Vector, window: float) -> float:
-    """The densest level of heights, (n,), m: the mean of its points."""
+    """Computes the densest level of heights, (n,), m: the mean of its points."""
     z = np.sort(z)
     first = np.searchsorted(z, z - window, side="left")
     last = np.searchsorted(z, z + window, side="right")
