@@ -44,7 +44,7 @@ def test_shipped_scenarios_are_listed_with_a_description() -> None:
 def test_shipped_stairs_have_the_published_dimensions(
     name: str, steps: int, rise: float, run: float, width: float
 ) -> None:
-    """Stair paper, Sec. 6."""
+    """Stair paper, Sec. 5."""
     scenario = load_scenario(name)
     stairs = scenario.scene.staircase
     assert stairs is not None

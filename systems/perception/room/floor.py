@@ -42,7 +42,7 @@ class FloorParams(Parameters):
     how many planes are tried at least. It is no condition, since a room full of boxes,
     or with its walls in view, has a floor too; the share found is reported."""
     min_share: float = number(0.2, above=0.0, below=1.0)
-    """A plane with less is no floor."""
+    """A plane with a smaller share is no floor; the paper names no such bound."""
     max_share_below: float = number(0.05, least=0.0, most=1.0)
     """A plane with more points than this below it supports nothing: a table's top."""
     confidence: float = number(0.999, above=0.0, below=1.0)
