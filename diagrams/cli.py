@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from footfall.diagrams.cli_errors import (
+    BAD_INPUT,
     NOT_DONE,
     OptionError,
     bad_input_in_one_line,
@@ -131,7 +132,7 @@ def fields_command(
     Of an interval ( and ) exclude the bound; what is null is absent unless given.
     """
     with bad_input_in_one_line():
-        from footfall.diagrams.fields.fields_command import fields_text, write_schema
+        from footfall.diagrams.fields_command import fields_text, write_schema
 
         if schema is not None and (key or task):
             raise OptionError("--schema: holds all fields, give neither KEY nor --task")
@@ -189,6 +190,36 @@ def run(
     raise typer.Exit(DONE if summary.outcome == "completed" else NOT_DONE)
 
 
+@app.command("check-robot")
+def check_robot_command(
+    robot: Annotated[
+        str,
+        typer.Argument(
+            metavar="FILE", help="A robot's YAML file, or the name of a shipped robot."
+        ),
+    ],
+) -> None:
+    """Check a robot of one's own: what is missing, what was derived, does it stand?
+
+    Everything in the file that does not fit the URDF is told, a line each. A robot
+    that fits is simulated: it stands for two seconds on contact.
+    """
+    with bad_input_in_one_line():
+        from footfall.diagrams.robot_report import check_robot
+        from footfall.models.robots.robot_errors import RobotError
+
+        _quiet_drake()
+        try:
+            report = check_robot(robot)
+        except RobotError as error:
+            for line in str(error).splitlines():
+                typer.echo(f"footfall: {line}", err=True)
+            raise typer.Exit(BAD_INPUT) from None
+    for line in report.lines():
+        typer.echo(line)
+    raise typer.Exit(DONE if report.stands else NOT_DONE)
+
+
 @app.command()
 def segment(
     cloud: Annotated[
@@ -211,6 +242,15 @@ def segment(
             help="Steepest plane that is kept, in degrees from the horizontal.",
         ),
     ] = SLOPE,
+    robot: Annotated[
+        str | None,
+        typer.Option(
+            metavar="FILE",
+            help="A robot's YAML file: what is smaller than its sole is no plane to "
+            "stand on; by default JVRC-1's.",
+            show_default=False,
+        ),
+    ] = None,
     out: Annotated[
         Path | None,
         typer.Option(
@@ -231,7 +271,12 @@ def segment(
         direction = _parse_direction(gravity)
         params = PlaneSegmenterParams(slope_tolerance=_parse_slope(slope))
         target = out or Path("segmented") / cloud.stem
-        result = segment_file(cloud, direction, target, params)
+        sole = None
+        if robot is not None:
+            from footfall.diagrams.robots.robot_files import load_robot
+
+            sole = load_robot(robot).sole
+        result = segment_file(cloud, direction, target, params, sole)
     found = result.segmentation
     typer.echo(
         f"{result.points} points: {len(found.planes)} planes, "
@@ -367,7 +412,7 @@ def _parse_direction(text: str) -> "Vector":
 
 
 def _parse_slope(degrees: float) -> float:
-    """In rad."""
+    """Reads a slope in degrees as rad."""
     if not 0.0 < degrees < 90.0:
         raise OptionError(
             f"--slope: must lie between 0 and 90 degrees, got {degrees:g}"

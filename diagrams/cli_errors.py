@@ -18,7 +18,7 @@ class OptionError(ValueError):
 
 @contextmanager
 def run_ends_in_one_line(stop: StopSignals) -> Iterator[None]:
-    """What a signal or a full disk ends says so, and exits with the status of that."""
+    """Ends in one line, with its exit status, what a signal or a full disk ended."""
     from footfall.diagrams.run_folder import RecordingError
 
     try:
@@ -33,7 +33,7 @@ def run_ends_in_one_line(stop: StopSignals) -> Iterator[None]:
 
 @contextmanager
 def bad_input_in_one_line() -> Iterator[None]:
-    """What the user can mend ends in one line on stderr and exit status 2."""
+    """Ends what the user can mend in one line on stderr and exit status 2."""
     try:
         yield
     except Exception as error:
@@ -45,19 +45,21 @@ def bad_input_in_one_line() -> Iterator[None]:
 
 
 def _message(error: Exception) -> str:
-    """What the system says of a file comes with its name first, as ours does."""
+    """Puts the file's name before what the system says of it, as our messages do."""
     if isinstance(error, OSError) and error.filename is not None and error.strerror:
         return f"{error.filename}: {error.strerror}"
-    return getattr(error, "strerror", None) or str(error)
+    one_line = getattr(error, "strerror", None) or getattr(error, "one_line", None)
+    return one_line or str(error)
 
 
 def _bad_input_errors() -> tuple[type[Exception], ...]:
-    """Those of what was imported; what was not has raised nothing."""
+    """Lists the errors of what was imported; what was not has raised nothing."""
     homes = (
         ("footfall.diagrams.run_folder", "OutError"),
         ("footfall.diagrams.scenario", "ScenarioError"),
         ("footfall.diagrams.schema", "FieldError"),
         ("footfall.diagrams.signals", "RunError"),
+        ("footfall.models.robots.robot_errors", "RobotError"),
         ("footfall.systems.perception.clouds.cloud_files", "CloudFileError"),
         ("footfall.systems.perception.room.environment_xml", "EnvironmentFileError"),
     )

@@ -43,7 +43,7 @@ class StopSignals:
             self._held = False
 
     def exit_status(self) -> int:
-        """What a process that a signal ended exits with: 128 and the signal's number.
+        """Gives the exit status of a process that a signal ended: 128 and its number.
 
         Of a KeyboardInterrupt that no signal raised, that of Ctrl-C.
         """

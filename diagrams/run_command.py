@@ -81,7 +81,7 @@ def run_scenario(
 
 @contextmanager
 def _progress(console: Console, limit: float) -> Iterator[Callable[[float, str], None]]:
-    """Is told time and activity, and shows them as a bar, or as a line now and then."""
+    """Shows the time and activity it is told as a bar, or as a line now and then."""
     if not console.is_terminal:
         told = 0.0
 
@@ -108,5 +108,5 @@ def _progress(console: Console, limit: float) -> Iterator[Callable[[float, str],
 
 
 def _status(console: Console, doing: str) -> AbstractContextManager[object]:
-    """Where there is no terminal a spinner would only fill the log with blank lines."""
+    """Shows what is being done; no spinner fills a log with blank lines."""
     return console.status(doing) if console.is_terminal else nullcontext()

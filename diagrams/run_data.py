@@ -34,11 +34,11 @@ class RunData:
     """Each foot's contact wrench at `motion.time`, (n, 6)."""
 
     def signal(self, name: str) -> pd.DataFrame | None:
-        """A vector signal, where it was logged."""
+        """Finds a vector signal, where it was logged."""
         return self.run.signals.get(name)
 
     def first_signal(self, *names: str) -> pd.DataFrame | None:
-        """The first of these signals that was logged."""
+        """Finds the first of these signals that was logged."""
         return next((self.run.signals[n] for n in names if n in self.run.signals), None)
 
 
@@ -77,7 +77,7 @@ def read_run_data(folder: Path) -> RunData:
 
 
 def mover_positions(run: Run, time: Vector) -> Vector | None:
-    """Where each box that moves was: x, y in turn, (n, 2 k), m; None if not logged.
+    """Reads x, y of each box that moves in turn, (n, 2 k), m; None if not logged.
 
     Args:
         run: the run.

@@ -69,7 +69,7 @@ def begin_run(folder: Path, scenario: Scenario) -> None:
 
 
 def _make(folder: Path) -> bool:
-    """Whether the folder was not there before."""
+    """Makes a folder; False where it was there before."""
     try:
         folder.mkdir(parents=True)
     except FileExistsError:
@@ -95,7 +95,7 @@ def make_numbered(parent: Path, name: str) -> Path:
 
 
 def run_name(scenario: str, seed: int, changes: Sequence[str] = ()) -> str:
-    """What the folder of a run is called: SCENARIO-seedN, then what was changed.
+    """Names the folder of a run: SCENARIO-seedN, then what was changed.
 
     Args:
         scenario: its name.

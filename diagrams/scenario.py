@@ -10,6 +10,8 @@ import numpy as np
 from pydrake.common.yaml import yaml_dump, yaml_load_typed
 
 from footfall.diagrams.fields.commented_yaml import commented_yaml
+from footfall.diagrams.robots.robot_files import ROBOTS, model_of
+from footfall.diagrams.robots.scenario_robot import expand_robot, name_robot
 from footfall.diagrams.schema import (
     FieldError,
     Mapping,
@@ -21,8 +23,9 @@ from footfall.diagrams.schema import (
 from footfall.diagrams.shipped import shipped_scenarios
 from footfall.diagrams.task_params import TaskParams
 from footfall.models.robots.contact_geometry import CONTACT_MODELS
-from footfall.models.robots.jvrc1 import JVRC1
 from footfall.models.robots.robot import RobotModel
+from footfall.models.robots.robot_description import RobotDescription
+from footfall.models.robots.robot_errors import RobotError
 from footfall.models.scenes.room_obstacles import place_boxes
 from footfall.models.scenes.scene import SceneParams
 from footfall.models.scenes.solids import upright_pose
@@ -55,8 +58,8 @@ from footfall.systems.sensing.tilting_lidar import TiltingLidarParams
 from footfall.systems.thinking import ThinkingParams
 from footfall.systems.tracking.whole_body_ik import IkParams
 
-ROBOTS: dict[str, RobotModel] = {"jvrc1": JVRC1}
-"""The robots that a scenario may name."""
+ONLY_DYNAMIC = ("room_crossing", "stand")
+"""Tasks that are not done quasi-static."""
 APPROXIMATIONS = ("lagged", "similar", "sap")
 """What Drake offers of its contact problem that is convex."""
 
@@ -69,8 +72,12 @@ class ScenarioError(ValueError):
 class RobotParams(Parameters):
     """The robot and where it starts."""
 
-    name: str = choice("jvrc1", tuple(ROBOTS))
-    """Which robot."""
+    name: str = "jvrc1"
+    """Which robot: "jvrc1", or a YAML file of one's own, its path from the scenario's
+    file (of --set from the working folder), as in `robot: my_robot.yaml`."""
+    description: RobotDescription | None = None
+    """What a file of one's own says, and what it leaves out as it was read off the
+    URDF; in a scenario what is said here counts before the file."""
     x: float = number(0.0, "m")
     """Midpoint of its feet along x of W, m."""
     y: float = number(0.0, "m")
@@ -79,8 +86,23 @@ class RobotParams(Parameters):
     """Where it faces, about z of W from its x, rad."""
 
     def model(self) -> RobotModel:
-        """The robot's names, sole, postures and gains."""
+        """Gives the robot's names, sole, postures and gains."""
+        if self.description is not None:
+            return model_of(self.description)
         return ROBOTS[self.name]
+
+    def validate(self) -> None:
+        """Checks every field, and that the robot is known.
+
+        Raises:
+            ValueError: "field: reason, got x" for the first field that is wrong.
+        """
+        super().validate()
+        if self.description is None and self.name not in ROBOTS:
+            raise ValueError(
+                f"name: must be one of {', '.join(ROBOTS)}, or a file that ends with "
+                f".yaml, got {self.name!r}"
+            )
 
 
 @dataclass(kw_only=True)
@@ -98,7 +120,7 @@ class ControllerParams(Parameters):
     """The parameters of the systems: those that several share, then each one's own."""
 
     control_period: float = number(0.005, "s", least=1e-4, most=0.1)
-    """Tick of the fast loop, from the sampling of plans to the hold of the torques, s;
+    """Tick of the fast loop: from the sampling of plans to the hold of the torques, s;
     a multiple of `simulation.time_step`."""
     friction: float = number(0.6, above=0.0, most=10.0)
     """mu of the pyramids that planned and commanded contact wrenches are kept in;
@@ -190,12 +212,12 @@ class Scenario(Parameters):
     """How all of it is simulated."""
 
     def lidar(self) -> TiltingLidarParams:
-        """The scanner's parameters with the seed of this run."""
+        """Gives the scanner's parameters with the seed of this run."""
         lidar = self.sensors.lidar
         return replace(lidar, seed=lidar.seed + self.simulation.seed)
 
     def controllers(self) -> ControllerParams:
-        """The parameters of the systems, what they share written into each of them.
+        """Gives the parameters of the systems, with what they share in each of them.
 
         What a section itself holds for a number that is shared does not count.
         """
@@ -235,7 +257,7 @@ class Scenario(Parameters):
             self._check_width(stairs, model)
         elif self.task.kind == "stair_climbing":
             raise ValueError(f"scene.staircase: the task {self.task.kind} needs one")
-        if self.task.mode != "dynamic" and self.task.kind == "room_crossing":
+        if self.task.mode != "dynamic" and self.task.kind in ONLY_DYNAMIC:
             raise ValueError(
                 f"task.mode: {self.task.kind} is only done dynamic, "
                 f"got {self.task.mode!r}"
@@ -245,7 +267,7 @@ class Scenario(Parameters):
             for link in ET.parse(model.urdf).getroot().findall("link")
         }
         for index, push in enumerate(self.task.pushes):
-            if push.body not in links:
+            if push.body and push.body not in links:
                 close = difflib.get_close_matches(push.body, sorted(links), n=1)
                 hint = f"; did you mean {close[0]}?" if close else ""
                 raise ValueError(
@@ -297,6 +319,7 @@ def load_scenario(name_or_path: str | Path, overrides: Sequence[str] = ()) -> Sc
         ScenarioError: it cannot be used, and why, in one line.
     """
     label, stem, text = _read(name_or_path)
+    folder = Path(name_or_path).absolute().parent
     applied: list[tuple[str, str]] = []
     try:
         data = parse_yaml(text)
@@ -304,10 +327,13 @@ def load_scenario(name_or_path: str | Path, overrides: Sequence[str] = ()) -> Sc
             raise FieldError("", "must hold the fields of a scenario")
         data = {key: value for key, value in data.items() if str(key)[:1] != "_"}
         data.setdefault("name", stem)
+        name_robot(data, folder)
         check(data, Scenario)
         for override in overrides:
             applied.append((_override(data, override), override))
+            name_robot(data, Path.cwd())
             check(data, Scenario)
+        expand_robot(data, Path(name_or_path).absolute())
         scenario: Scenario = yaml_load_typed(  # type: ignore[no-untyped-call]
             schema=Scenario,
             data=yaml_dump(data),  # type: ignore[no-untyped-call]
@@ -319,11 +345,13 @@ def load_scenario(name_or_path: str | Path, overrides: Sequence[str] = ()) -> Sc
             if _concerns(error.path, key):
                 label = f"{label} with --set {override}"
         raise ScenarioError(f"{label}: {error}") from None
+    except RobotError as error:
+        raise ScenarioError(f"{label}: robot: {error.one_line}") from None
     return scenario
 
 
 def place_clutter(scenario: Scenario) -> Scenario:
-    """The scenario with the boxes of its clutter in place, drawn with the run's seed.
+    """Places the boxes of the scenario's clutter, drawn with the run's seed.
 
     Raises:
         FieldError: there is no room for them.
@@ -349,7 +377,7 @@ def save_scenario(scenario: Scenario, path: str | Path) -> None:
 
 
 def _read(name_or_path: str | Path) -> tuple[str, str, str]:
-    """What to call the scenario in messages, its name unless it has one, its text."""
+    """Reads a scenario: what messages call it, a name where it has none, its text."""
     path, shipped = Path(name_or_path), shipped_scenarios()
     if str(name_or_path) in shipped:
         name = str(name_or_path)
@@ -372,7 +400,7 @@ def _read(name_or_path: str | Path) -> tuple[str, str, str]:
 
 
 def _concerns(path: str, key: str) -> bool:
-    """Whether one of two paths to a field leads through the other."""
+    """Tells whether one of two paths to a field leads through the other."""
     short, long = sorted((path, key), key=len)
     return bool(short) and (
         short == long or long.startswith((f"{short}.", f"{short}["))

@@ -25,7 +25,7 @@ class FieldError(ValueError):
     """Something is wrong with one field."""
 
     def __init__(self, path: str, reason: str) -> None:
-        """An error at a path such as "scene.boxes[0].size"; empty is the whole."""
+        """Makes an error at a path, "scene.boxes[0].size" say; empty is the whole."""
         super().__init__(f"{path}: {reason}" if path else reason)
         self.path = path
 
@@ -48,7 +48,7 @@ class _UniqueKeyLoader(yaml.SafeLoader):
 
 
 def parse_yaml(text: str) -> Any:
-    """The YAML document as plain data.
+    """Parses a YAML document to plain data.
 
     Raises:
         FieldError: it is not YAML; the line is named.
@@ -100,8 +100,8 @@ def check(data: object, schema: Any, path: str = "") -> None:
 
     Args:
         data: plain data.
-        schema: bool, int, float, str, a dataclass, a list of one of them, or one of
-            them or None.
+        schema: bool, int, float, str, a dataclass, a list of one of them, a dict from
+            str to one of them, or one of them or None.
         path: where the data lies in the document.
 
     Raises:
@@ -117,6 +117,11 @@ def check(data: object, schema: Any, path: str = "") -> None:
             raise FieldError(path, f"must be a list, got {_shown(data)}")
         for index, item in enumerate(data):
             check(item, arguments[0], f"{path}[{index}]")
+    elif origin is dict:
+        if not isinstance(data, dict):
+            raise FieldError(path, f"must hold fields, got {_shown(data)}")
+        for name, item in data.items():
+            check(item, arguments[1], _join(path, str(name)))
     elif dataclasses.is_dataclass(schema):
         _check_fields(data, schema, path)
     elif schema is bool:

@@ -11,8 +11,8 @@ from time import perf_counter
 import numpy as np
 from matplotlib.figure import Figure
 
-from footfall.models.robots.jvrc1 import JVRC1
 from footfall.models.robots.robot import Sole
+from footfall.models.robots.robot_description import default_sole
 from footfall.models.values.perceived import PlaneSegment, PlaneSegmentation
 from footfall.models.values.value import to_json
 from footfall.models.values.vector import Vector
@@ -50,7 +50,7 @@ def segment_file(
     gravity: Vector,
     out: Path,
     params: PlaneSegmenterParams | None = None,
-    sole: Sole = JVRC1.sole,
+    sole: Sole | None = None,
 ) -> SegmentedFile:
     """Segments the cloud in a file and writes `planes.json` and `planes.png`.
 
@@ -61,7 +61,8 @@ def segment_file(
         gravity: gravity in the cloud's frame, (3,), any length: it points down.
         out: folder to write to; it is made where it is missing.
         params: parameters; None for the paper's.
-        sole: of the robot; what is smaller is no plane to stand on.
+        sole: of the robot, by default of JVRC-1; what is smaller is no plane to stand
+            on.
 
     Raises:
         CloudFileError: the file is no cloud.
@@ -70,6 +71,7 @@ def segment_file(
     """
     params = params or PlaneSegmenterParams()
     params.validate()
+    sole = sole or default_sole()
     R_GW = gravity_aligned_rotation(gravity)
     start = perf_counter()
     points = read_cloud(cloud)
@@ -228,7 +230,7 @@ def _framed(drawn: Vector, bounds: Vector) -> tuple[float, float]:
 def _labelled(
     segmentation: PlaneSegmentation,
 ) -> list[tuple[PlaneSegment, str, str]]:
-    """Each plane with its colour and label; treads are numbered from the lowest."""
+    """Gives each plane its colour and label; treads are numbered from the lowest."""
     staircase = segmentation.staircase
     drawn = []
     number = 0

@@ -80,20 +80,20 @@ def append_whole(path: Path, content: bytes, size: int) -> None:
 
 
 def _name_file(error: BaseException, path: Path) -> None:
-    """The system names a file that cannot be opened, but not one it cannot fill."""
+    """Adds the file's name to an error of the system that does not say it."""
     if isinstance(error, OSError) and error.filename is None:
         error.filename = str(path)
 
 
 def stream_start(columns: Sequence[str], units: Sequence[str]) -> bytes:
-    """The beginning of an Arrow stream: `time` [s], then a column an element."""
+    """Writes the beginning of an Arrow stream: `time` [s], then a column an element."""
     return _schema(columns, units).serialize().to_pybytes()  # type: ignore[no-any-return]
 
 
 def stream_batch(
     columns: Sequence[str], units: Sequence[str], samples: Vector
 ) -> bytes:
-    """One batch of an Arrow stream.
+    """Writes one batch of an Arrow stream.
 
     Args:
         columns: names of the elements.
@@ -137,7 +137,7 @@ def make_parquet(stream: Path) -> None:
 
 
 def read_table(path: Path) -> pa.Table:
-    """A vector signal of either kind, of a stream that was cut what is whole of it.
+    """Reads a vector signal of either kind, of a stream that was cut what is whole.
 
     Raises:
         RunError: it is neither, or was cut before its first batch.
@@ -174,14 +174,14 @@ class SignalFrames(Mapping[str, pd.DataFrame]):
     """The vector signals of a run by name; each file is read when it is asked for."""
 
     def __init__(self, folder: Path) -> None:
-        """The signals that lie in `folder`."""
+        """Lists the signals that lie in `folder`; each is read when it is asked for."""
         # A Parquet file is made of a stream: where both are, it is whole already.
         paths = [*folder.glob("*" + STREAM), *folder.glob("*" + PARQUET)]
         self._paths = dict(sorted((path.stem, path) for path in paths))
         self._frames: dict[str, pd.DataFrame] = {}
 
     def __getitem__(self, name: str) -> pd.DataFrame:
-        """The signal's data frame; `frame.attrs["units"]` has the unit by column.
+        """Reads a signal's data frame; `frame.attrs["units"]` has the unit by column.
 
         Raises:
             KeyError: the run did not log this signal.
@@ -201,16 +201,16 @@ class SignalFrames(Mapping[str, pd.DataFrame]):
         return self._frames[name]
 
     def __iter__(self) -> Iterator[str]:
-        """The names, sorted."""
+        """Iterates over the names, sorted."""
         return iter(self._paths)
 
     def __len__(self) -> int:
-        """How many there are."""
+        """Counts the signals."""
         return len(self._paths)
 
 
 def parse_json(path: Path, text: bytes) -> Json:
-    """What a JSON file, or a line of one, holds.
+    """Parses a JSON file, or a line of one.
 
     Raises:
         RunError: it is not JSON.

@@ -60,7 +60,7 @@ class SignalRecorder:
     """Adds logs to a diagram that is being built, and gives what they hold."""
 
     def __init__(self, builder: DiagramBuilder) -> None:
-        """A recorder of the ports of systems that `builder` holds directly."""
+        """Makes a recorder of the ports of systems that `builder` holds directly."""
         self._builder = builder
         self._vectors: dict[str, VectorSignal] = {}
         self._logs: dict[float, SignalLog] = {}
@@ -137,7 +137,7 @@ class SignalRecorder:
         return tuple(signal for signal, _ in self._values.values())
 
     def frames(self, root_context: Context) -> Mapping[str, pd.DataFrame]:
-        """What was logged of every vector port: `time` [s] and a column an element.
+        """Reads the log of every vector port: `time` [s] and a column an element.
 
         Of a context whose signals are streamed they are read from the files, each when
         it is asked for, and hold what was flushed.
@@ -153,7 +153,7 @@ class SignalRecorder:
     def logged_values(
         self, root_context: Context
     ) -> dict[str, tuple[LoggedValue, ...]]:
-        """What was logged of every abstract port.
+        """Reads the log of every abstract port.
 
         Of a context whose signals are streamed, a signal that was added with
         `keep=False` has what was not yet flushed, and the value before.
@@ -164,7 +164,7 @@ class SignalRecorder:
         }
 
     def samples(self, root_context: Context) -> dict[str, Vector]:
-        """Of every vector signal what is in memory: time, s, and value, (n, 1 + k)."""
+        """Gives what memory has of every vector signal: time and value, (n, 1 + k)."""
         logs = {
             period: log.find_log(root_context) for period, log in self._logs.items()
         }
@@ -234,7 +234,7 @@ class SignalStream:
     def __init__(
         self, recorder: SignalRecorder, root_context: Context, folder: Path
     ) -> None:
-        """A stream that has written nothing.
+        """Opens a stream that has written nothing.
 
         Args:
             recorder: of the diagram.

@@ -55,7 +55,7 @@ class Run:
         return data
 
     def _cut_summary(self) -> dict[str, Json]:
-        """What there is to say of a run that was killed, or still goes on."""
+        """Says what there is to say of a run that was killed, or still goes on."""
         ends = [float(frame["time"].iloc[-1]) for frame in self.signals.values()]
         end = max(ends, default=0.0)
         return {
@@ -84,7 +84,7 @@ class Run:
         return tuple(path.stem for path in paths)
 
     def values(self, name: str) -> list[tuple[float, dict[str, Json]]]:
-        """An abstract signal: (time s, value as JSON data) each time it changed.
+        """Reads an abstract signal: (time s, value as JSON data) each time it changed.
 
         Raises:
             KeyError: the run did not log this signal.

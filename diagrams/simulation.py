@@ -12,7 +12,7 @@ from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import Context
 
 from footfall.diagrams.closed_loop.task_diagram import TaskDiagram
-from footfall.diagrams.judge.crossing_judge import eyes_summary
+from footfall.diagrams.judge.crossing_judge import obstacle_map_errors
 from footfall.diagrams.judge.evidence import Evidence, Stop, gather
 from footfall.diagrams.judge.outcome import Judgement, Outcome, judge
 from footfall.diagrams.judge.room_summary import room_perception, stage_ms
@@ -255,9 +255,9 @@ def summarize(task: TaskDiagram, scenario: Scenario, simulated: Simulated) -> Su
 
 
 def _perception(task: TaskDiagram, evidence: Evidence) -> Mapping[str, Json] | None:
-    """How the stairs, the room or the obstacles were seen; None where none was."""
+    """Compares what was seen with the true scene; None where nothing was seen."""
     if evidence.crossing is not None:
-        return eyes_summary(evidence.crossing)
+        return obstacle_map_errors(evidence.crossing)
     ms_per_frame = stage_ms(task.diagram, len(evidence.environments))
     if ms_per_frame:
         return room_perception(evidence.environments, task.scene, ms_per_frame)

@@ -11,7 +11,7 @@ R = TypeVar("R")
 
 
 def weakly_bound(callback: Callable[P, R]) -> Callable[P, R]:
-    """A method, or a `partial` of one, that does not keep its object alive.
+    """Makes a method, or a `partial` of one, that does not keep its object alive.
 
     Drake holds a System's callbacks where Python's collector of cycles does not see
     them: a System that declares its own methods is never freed, nor is the diagram

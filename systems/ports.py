@@ -11,7 +11,7 @@ T = TypeVar("T")
 
 
 def eval_vector(port: InputPort | OutputPort, context: Context) -> Vector:
-    """The port's value in this context, shape (n,), as an array that may be kept."""
+    """Evaluates a vector port, shape (n,), as an array that may be kept."""
     return np.array(port.Eval(context), dtype=float)
 
 
@@ -21,7 +21,7 @@ def set_vector(output: BasicVector, value: Vector) -> None:
 
 
 def eval_abstract(port: InputPort | OutputPort, context: Context, kind: type[T]) -> T:
-    """The abstract port's value in this context.
+    """Evaluates an abstract port.
 
     Raises:
         TypeError: the port carries something else than a `kind`.

@@ -86,7 +86,7 @@ class SignalLog(LeafSystem):
         return port
 
     def find_log(self, root_context: Context) -> Vector:
-        """What a diagram's context holds: the time, s, then all signals, (n, 1 + k)."""
+        """Finds the log in a diagram's context: time and all signals, (n, 1 + k)."""
         rows = self._rows(self.GetMyContextFromRoot(root_context))
         width = 1 + sum(port.size() for port in self._signals)
         log: Vector = np.array(rows, dtype=np.float64).reshape(len(rows), width)

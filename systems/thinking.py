@@ -52,11 +52,11 @@ class Thought(Value):
     """When it becomes that, s."""
 
     def until(self, ready: float, coming: Self) -> Self:
-        """This state until a time, s, another from then on."""
+        """Keeps this state until a time, s, and another from then on."""
         return dataclasses.replace(self, coming=coming, ready=ready)
 
     def at(self, time: float) -> Self:
-        """What this has become by a time, s; itself where nothing has come."""
+        """Gives the state at a time, s; itself where nothing has come."""
         state = self
         while state.coming is not None and time >= state.ready - ROUNDING:
             state = state.coming
@@ -64,7 +64,7 @@ class Thought(Value):
 
 
 def ready_time(time: float, latency: float, period: float) -> float:
-    """When the result of thinking is there: at an update, as early as that may be.
+    """Computes when the result of thinking is there: at an update, as early as may be.
 
     Args:
         time: of the update at which the thinking begins, s.

@@ -42,7 +42,7 @@ class Stopwatch:
     """
 
     def __init__(self) -> None:
-        """A stopwatch that has measured nothing."""
+        """Makes a stopwatch that has measured nothing."""
         self._bins = [0] * _BINS
         self._total = 0.0
 
@@ -57,7 +57,7 @@ class Stopwatch:
         return self._total
 
     def quantile(self, share: float) -> float:
-        """The duration that this share of the calls did not exceed, s.
+        """Computes the duration that this share of the calls did not exceed, s.
 
         Args:
             share: 0.5 for the median.
@@ -78,7 +78,7 @@ class Stopwatch:
         self._total += duration
 
     def wrap(self, callback: Callable[P, R]) -> Callable[P, R]:
-        """The callback, measured."""
+        """Measures a callback."""
 
         def measured(*args: P.args, **kwargs: P.kwargs) -> R:
             nested = _RUNNING.nested
@@ -96,13 +96,13 @@ class Stopwatch:
 
 
 def stopwatch(system: System) -> Stopwatch | None:
-    """The system's stopwatch; None where none of its callbacks is timed."""
+    """Finds the system's stopwatch; None where none of its callbacks is timed."""
     watch = getattr(system, "_stopwatch", None)
     return watch if isinstance(watch, Stopwatch) else None
 
 
 def timed(system: System, callback: Callable[P, R]) -> Callable[P, R]:
-    """The callback, measured by the system's stopwatch (made at the first call).
+    """Measures a callback by the system's stopwatch (made at the first call).
 
     Like `weakly_bound`, it does not keep the system alive.
     """

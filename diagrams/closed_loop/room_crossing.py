@@ -18,7 +18,7 @@ from footfall.diagrams.closed_loop.walking_signals import (
     record_walking,
 )
 from footfall.diagrams.closed_loop.wiring import add_system
-from footfall.diagrams.scenario import ROBOTS, Scenario
+from footfall.diagrams.scenario import Scenario
 from footfall.diagrams.signal_names import MOVERS_SIGNAL
 from footfall.models.values.perceived import Staircase
 from footfall.models.values.planned import MotionPlan
@@ -47,7 +47,7 @@ def build_room_crossing(
         EnvironmentFileError: the scenario's environment cannot be read.
     """
     params = scenario.controllers()
-    robot = ROBOTS[scenario.robot.name]
+    robot = scenario.robot.model()
     builder = DiagramBuilder()
 
     station = add_station(builder, scenario, robot, params.control_period)

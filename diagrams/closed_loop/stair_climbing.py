@@ -10,7 +10,7 @@ from footfall.diagrams.closed_loop.task_diagram import TaskDiagram, build_diagra
 from footfall.diagrams.closed_loop.walking import add_walking, initial_stand
 from footfall.diagrams.closed_loop.walking_signals import VALUE_PERIOD, record_walking
 from footfall.diagrams.closed_loop.wiring import add_system
-from footfall.diagrams.scenario import ROBOTS, Scenario
+from footfall.diagrams.scenario import Scenario
 from footfall.models.robots.collision_hulls import collision_hulls
 from footfall.models.robots.self_distance import SelfDistanceMeter
 from footfall.models.values.vector import Vector
@@ -37,7 +37,7 @@ def build_stair_climbing(
         The diagram, its default context where the robot starts.
     """
     params = scenario.controllers()
-    robot = ROBOTS[scenario.robot.name]
+    robot = scenario.robot.model()
     builder = DiagramBuilder()
 
     station = add_station(builder, scenario, robot, params.control_period)

@@ -20,6 +20,7 @@ from footfall.diagrams.closed_loop.wiring import add_system
 from footfall.diagrams.scenario import Scenario
 from footfall.models.robots.contact_geometry import ContactModel, is_sole
 from footfall.models.robots.robot import RobotModel
+from footfall.models.robots.robot_errors import RobotError
 from footfall.models.robots.robot_loader import add_robot, body_meshes
 from footfall.models.scenes.mover import add_movers
 from footfall.models.scenes.solid_names import is_ground
@@ -173,7 +174,7 @@ def add_station(
 
     pushes = []
     for push in scenario.task.pushes:
-        body = plant.GetBodyByName(push.body, instance)
+        body = plant.GetBodyByName(push.body or robot.torso_body, instance)
         force: Vector = np.array(push.force)
         pushes.append(
             Push(body.index(), push.time, push.duration, force, body.default_com())
@@ -221,8 +222,15 @@ def mover_meshes(scenario: Scenario, plant: MultibodyPlant) -> list[BodyMesh]:
 def add_lidar(
     builder: DiagramBuilder, scenario: Scenario, station: Station
 ) -> tuple[TiltingLidar, ScanAssembler]:
-    """Adds the scanner on the robot's head and what makes a cloud of its lines."""
+    """Adds the scanner on the robot's head and what makes a cloud of its lines.
+
+    Raises:
+        RobotError: the robot has no head.
+    """
     plant, robot = station.plant, station.robot
+    if robot.head_body is None:
+        problem = f"head_body: must be given, the scanner's, for {scenario.task.kind}"
+        raise RobotError(robot.name, [problem])
     head = plant.GetBodyByName(robot.head_body, station.instance).index()
     p_HM: Vector = np.array(robot.lidar_position)
     X_HM = RigidTransform(p_HM)

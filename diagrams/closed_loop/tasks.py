@@ -5,6 +5,7 @@ from pydrake.geometry import Meshcat
 from footfall.diagrams.closed_loop.obstacle_crossing import build_obstacle_crossing
 from footfall.diagrams.closed_loop.room_crossing import build_room_crossing
 from footfall.diagrams.closed_loop.stair_climbing import build_stair_climbing
+from footfall.diagrams.closed_loop.standing import build_standing
 from footfall.diagrams.closed_loop.task_diagram import TaskDiagram
 from footfall.diagrams.scenario import Scenario, ScenarioError
 
@@ -12,6 +13,7 @@ BUILDERS = {
     "obstacle_crossing": build_obstacle_crossing,
     "room_crossing": build_room_crossing,
     "stair_climbing": build_stair_climbing,
+    "stand": build_standing,
 }
 """Who builds which kind of task."""
 

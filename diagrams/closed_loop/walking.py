@@ -96,7 +96,7 @@ def add_walking(
     station: Station,
     stand: Stand,
     executive: System,
-    planner: System,
+    planner: System | None,
 ) -> Walking:
     """Adds the controllers that carry out motion plans.
 
@@ -107,7 +107,7 @@ def add_walking(
         stand: where the robot stands at the start.
         executive: its `motion_plan` is what is carried out.
         planner: of motions; it goes on from the `foot_references` and the
-            `com_reference` that are tracked now.
+            `com_reference` that are tracked now. None where nothing is planned.
 
     Returns:
         The controllers, wired to the station.
@@ -150,11 +150,12 @@ def add_walking(
         station.kinematics.GetOutputPort("foot_poses"),
         landing.GetInputPort("foot_poses"),
     )
-    builder.Connect(
-        landing.GetOutputPort("foot_references"),
-        planner.GetInputPort("foot_references"),
-    )
-    builder.Connect(com_reference, planner.GetInputPort("com_reference"))
+    if planner is not None:
+        builder.Connect(
+            landing.GetOutputPort("foot_references"),
+            planner.GetInputPort("foot_references"),
+        )
+        builder.Connect(com_reference, planner.GetInputPort("com_reference"))
 
     tracker = add_system(
         builder, "ik_tracker", IkTracker(model, robot, params.ik, stand.positions)
@@ -186,6 +187,7 @@ def add_walking(
             params.stabilizer,
             robot.sole,
             model.CalcTotalMass(model.CreateDefaultContext()),
+            sum(len(leg) for leg in robot.leg_joints.values()),
         ),
     )
     for port in ("com", "com_velocity"):

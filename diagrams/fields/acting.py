@@ -13,6 +13,7 @@ Condition: TypeAlias = Mapping[str, tuple[Any, ...]]
 STAIRS: Condition = {"task.kind": ("stair_climbing",)}
 OBSTACLES: Condition = {"task.kind": ("obstacle_crossing",)}
 ROOM: Condition = {"task.kind": ("room_crossing",)}
+STAND: Condition = {"task.kind": ("stand",)}
 SCANS: Condition = {"task.kind": ("stair_climbing", "obstacle_crossing")}
 GOAL: Condition = {"task.kind": ("room_crossing", "obstacle_crossing")}
 CAMERA: Condition = {**ROOM, "task.environment": (None,)}
@@ -23,6 +24,7 @@ ACTS: Mapping[str, Condition] = {
     "sensors.camera": CAMERA,
     "sensors.lidar": SCANS,
     "task.steps_between_scans": STAIRS,
+    "task.stand_time": STAND,
     "task.goal": GOAL,
     "task.environment": ROOM,
     "parameters.scan_assembler": SCANS,

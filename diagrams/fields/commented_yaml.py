@@ -47,8 +47,10 @@ def _group(
             continue
         note = f"Does not act: {idle}" if idle else _meaning(item)
         if dataclasses.is_dataclass(held):
-            yield _line(f"{indent}{item.name}:", note)
-            yield from _group(held, item.default, f"{key}.", f"{indent}  ", scenario)
+            parts = [*_group(held, item.default, f"{key}.", f"{indent}  ", scenario)]
+            if parts:
+                yield _line(f"{indent}{item.name}:", note)
+            yield from parts
         elif item.is_group and held:
             yield _line(f"{indent}{item.name}:", note)
             for index, part in enumerate(held):
@@ -57,6 +59,10 @@ def _group(
                 )
                 yield f"{indent}- {first.lstrip()}"
                 yield from rest
+        elif item.named and held:
+            yield _line(f"{indent}{item.name}:", note, item.unit)
+            for name, part in held.items():
+                yield f"{indent}  {_scalar(name)}: {_scalar(part)}"
         else:
             text = f"{indent}{item.name}: {_scalar(held)}"
             yield _line(text, note, item.unit)

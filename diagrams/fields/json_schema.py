@@ -57,6 +57,8 @@ def _property(item: FieldDescription) -> Mapping:
             element["enum"] = list(item.choices)
     if item.many:
         element = {"type": "array", "items": element, **_lengths(item.bounds)}
+    if item.named:
+        element = {"type": "object", "additionalProperties": element}
     if item.optional:
         element["type"] = [element["type"], "null"]
     return {**found, **element}

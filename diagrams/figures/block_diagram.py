@@ -49,7 +49,7 @@ class Wire(NamedTuple):
 
 
 def topology(diagram: Diagram) -> tuple[list[Block], list[Wire]]:
-    """The blocks of a diagram and how they are connected, without log sinks.
+    """Lists the blocks of a diagram and how they are connected, without log sinks.
 
     A subdiagram is one block. Ports that nothing is connected to are left out.
     """
@@ -98,7 +98,7 @@ def topology(diagram: Diagram) -> tuple[list[Block], list[Wire]]:
 
 
 def block_diagram_svg(diagram: Diagram, title: str) -> str:
-    """The diagram's blocks and wires as an SVG picture, laid out by Graphviz.
+    """Draws the diagram's blocks and wires as SVG, laid out by Graphviz.
 
     Blocks are coloured by what they are for; wires that carry vectors are solid and
     blue, those that carry abstract values dashed and brown.
@@ -159,7 +159,7 @@ def _fill(system: System) -> str:
 
 
 def _label(block: Block) -> str:
-    """The block as a Graphviz table: its title above inputs and outputs."""
+    """Writes a block as a Graphviz table: its title above inputs and outputs."""
     rows = max(len(block.inputs), len(block.outputs))
     body = ""
     for row in range(rows):

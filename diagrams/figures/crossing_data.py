@@ -76,7 +76,7 @@ class PlannedCrossing:
     """Of the whole body; `time` is that of the simulation."""
 
     def window(self) -> tuple[float, float]:
-        """From some steps before the first crossing to as many after the last, s."""
+        """Spans the time from some steps before to as many after all crossings, s."""
         starts, ends = self.swings.T
         first = int(np.argmin(np.abs(starts - self.phases[0].begin)))
         last = int(np.argmin(np.abs(ends - self.phases[-1].end)))
@@ -99,7 +99,7 @@ class PlannedCrossing:
 def planned_crossings(
     entries: Sequence[tuple[float, Mapping[str, Any]]],
 ) -> tuple[PlannedCrossing, ...]:
-    """The plans of a run that cross something.
+    """Finds the plans of a run that cross something.
 
     Args:
         entries: what was logged of `PLAN_SIGNAL`, (time, value).
@@ -155,7 +155,7 @@ def _planned(value: Mapping[str, Any]) -> PlannedCrossing:
 def _phases(
     begin: float, end: float, swings: Sequence[tuple[float, float, Foot]]
 ) -> Phases:
-    """What lies between the beginning of phase 1 and the end of phase 3."""
+    """Finds what lies between the beginning of phase 1 and the end of phase 3."""
     inside = [s for s in swings if s[0] > begin - 1e-6 and s[1] < end + 1e-6]
     first, second = inside[0], inside[-1]
     return Phases(begin, first[1], second[0], end, first[2], second[2])
@@ -175,7 +175,7 @@ class CrossingData:
     """At least one."""
 
     def params(self, plan: PlannedCrossing) -> CrossingParams:
-        """Of the way in which a plan crosses."""
+        """Gives the parameters of the way in which a plan crosses."""
         params = self.data.run.scenario.parameters.crossing
         return ways_of_crossing(params)[plan.way]
 
@@ -188,7 +188,7 @@ class CrossingData:
         return np.array([x, [-x[1], x[0]]])
 
     def true_box(self, obstacle: Obstacle) -> Box | None:
-        """The box that an obstacle truly is; None where there is none near it."""
+        """Finds the box that an obstacle truly is; None where there is none near it."""
         boxes = [
             solid
             for solid in self.data.run.scenario.scene.solids()
@@ -211,7 +211,7 @@ class CrossingData:
 
 
 def read_crossings(data: RunData) -> CrossingData | None:
-    """The crossings of a run; None where nothing was crossed or no plan was logged.
+    """Reads the crossings of a run; None where none was made or no plan was logged.
 
     Raises:
         RunError: the log of the plans is damaged.
@@ -225,7 +225,7 @@ def read_crossings(data: RunData) -> CrossingData | None:
 def without_adaptation(
     crossing: CrossingData, planned: PlannedCrossing
 ) -> CrossingMotion:
-    """The same motion without the feet adaptor and the arms (Fig. 7, "before").
+    """Plans the same motion without feet adaptor and arms (Fig. 7, "before").
 
     Args:
         crossing: the run, whose parameters are taken.

@@ -194,7 +194,7 @@ def sideways_figure(crossing: CrossingData) -> Figure:
 
 
 def _repairs(repairs: Repairs) -> str:
-    """What the feet adaptor changed, in a few words."""
+    """Says in a few words what the feet adaptor changed."""
     said = [
         f"{what} by {1e3 * size:.0f} mm"
         for what, size in (
@@ -210,7 +210,7 @@ def _repairs(repairs: Repairs) -> str:
 
 
 def _zmp_panel(ax: Axes, crossing: CrossingData, direction: Vector) -> None:
-    """Every ZMP along a direction, and the edges of the support."""
+    """Draws every ZMP along a direction, and the edges of the support."""
     data = crossing.data
     low, high = support_edges(data, direction)
     ax.fill_between(
@@ -239,7 +239,7 @@ def _zmp_panel(ax: Axes, crossing: CrossingData, direction: Vector) -> None:
 
 
 def _error_panel(ax: Axes, crossing: CrossingData, direction: Vector) -> None:
-    """How far every ZMP is from the desired one along a direction."""
+    """Draws how far every ZMP is from the desired one along a direction."""
     motion, zmp = crossing.data.motion, true_zmp(crossing.data)
     for k, plan in enumerate(crossing.plans):
         wanted = plan.zmp @ direction
@@ -259,7 +259,7 @@ def _error_panel(ax: Axes, crossing: CrossingData, direction: Vector) -> None:
 def _stages(
     curves: BodyCurves, direction: Vector
 ) -> tuple[tuple[Vector, str, str], ...]:
-    """The multibody ZMP of both stages along a direction, with colour and label."""
+    """Gives both stages' multibody ZMP along a direction, with colour and label."""
     return (
         (curves.zmp_cwtg1 @ direction, CWTG1, "multibody, after CWTG1"),
         (curves.zmp_cwtg2 @ direction, CWTG2, "multibody, after CWTG2"),
@@ -274,7 +274,7 @@ def _waist(
     color: str,
     style: str,
 ) -> None:
-    """The waist's x and z in two panels."""
+    """Draws the waist's x and z in two panels."""
     for ax, values in zip(
         axes, (curves.waist[:, :2] @ x, curves.waist[:, 2]), strict=True
     ):
@@ -292,7 +292,7 @@ def _once(index: int, label: str) -> str:
 
 
 def _keys(ax: Axes, *entries: tuple[str, str, str]) -> None:
-    """A legend of label, colour and line style beside the axes."""
+    """Draws a legend of label, colour and line style beside the axes."""
     for label, color, style in entries:
         ax.plot([], [], color=color, ls=style, lw=1.4, label=label)
     legend_outside(ax)

@@ -24,7 +24,7 @@ ACTIVITY_COLORS = {
 
 
 def new_figure(width: float, height: float) -> Figure:
-    """An empty figure, inches, that makes room for its labels."""
+    """Makes an empty figure, inches, that has room for its labels."""
     return Figure(figsize=(width, height), layout="constrained")
 
 
@@ -82,12 +82,12 @@ def plot_column(
 
 
 def reference_signal(data: RunData, port: str) -> pd.DataFrame | None:
-    """What was wanted of CoM, DCM or ZMP."""
+    """Reads the reference of CoM, DCM or ZMP."""
     return data.first_signal(f"reference.{port}", f"stabilizer.{port}")
 
 
 def true_zmp(data: RunData) -> Vector | None:
-    """The ZMP from the true contact wrenches, (n, 2), m; None without them."""
+    """Computes the ZMP from the true contact wrenches, (n, 2), m; None without them."""
     if data.wrenches is None:
         return None
     return zmp_of_feet(data.motion, data.wrenches, data.limits.weight)

@@ -99,7 +99,7 @@ def render_run(
 def render_states(
     run: Run, states: Vector, view: Vector = VIEW, movers: Vector | None = None
 ) -> list[Vector]:
-    """A picture of the robot in its scene at each state, (height, width, 3) each.
+    """Renders the robot in its scene at each state, (height, width, 3) each.
 
     Args:
         run: its robot and scene.
@@ -204,13 +204,13 @@ def strip_figure(pictures: list[Vector], moments: Vector) -> Figure:
 
 
 def turned(v: Vector, yaw: float) -> Vector:
-    """A vector turned by yaw, rad, about z, (3,)."""
+    """Turns a vector by yaw, rad, about z, (3,)."""
     R_z: Vector = RotationMatrix.MakeZRotation(yaw).matrix()
     return R_z @ v
 
 
 def _crossings(run: Run) -> tuple[PlannedCrossing, ...]:
-    """What was crossed, if anything."""
+    """Reads what was crossed, if anything."""
     if PLAN_SIGNAL not in run.value_names:
         return ()
     return planned_crossings(run.values(PLAN_SIGNAL))
@@ -232,7 +232,7 @@ def spread(stretches: Sequence[tuple[float, float]], count: int) -> Vector:
 
 
 def _moving(run: Run, time: Vector) -> list[tuple[float, float]]:
-    """When the robot moved, as its executive says; all of the run if it does not."""
+    """Finds when the robot moved, by its executive; all of the run without one."""
     always = [(float(time[0]), float(time[-1]))]
     if "executive.status" not in run.value_names:
         return always

@@ -34,7 +34,7 @@ def replay_html(
     state: Vector,
     movers: Vector | None = None,
 ) -> str:
-    """A self-contained page that plays the robot's motion in its scene.
+    """Writes a self-contained page that plays the robot's motion in its scene.
 
     The walls and the ceiling of the room are left out, so that one can look in.
 

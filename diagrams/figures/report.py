@@ -256,7 +256,7 @@ def joints_figure(data: RunData) -> Figure:
 
 
 def _extreme_joints(shares: Mapping[str, Vector]) -> list[str]:
-    """The joints that came nearest to their limits, the nearest first."""
+    """Finds the joints that came nearest to their limits, the nearest first."""
     order = sorted(shares, key=lambda joint: -float(np.abs(shares[joint]).max()))
     return order[:SHOWN_JOINTS]
 
@@ -269,7 +269,7 @@ def _shares(
     colors: Mapping[str, str],
     label: str,
 ) -> None:
-    """The joints nearest to their limits in colour, the others in grey."""
+    """Draws the joints nearest to their limits in colour, the others in grey."""
     shade_activities(ax, data)
     extreme = _extreme_joints(shares)
     for joint in shares.keys() - set(extreme):
@@ -292,7 +292,7 @@ def _shares(
 
 
 def _standing_samples(data: RunData, foot: Foot) -> list[int]:
-    """A sample in the middle of every contact of a foot."""
+    """Picks a sample in the middle of every contact of a foot."""
     if data.wrenches is None:
         return [0, len(data.motion.time) - 1]
     force = data.wrenches[foot][:, 2]

@@ -76,7 +76,7 @@ def _values(run: Run, name: str) -> list[Mapping[str, Json]]:
 
 
 def _draw_scene(ax: Axes, scene: SceneParams) -> None:
-    """The true boxes; those that move where they come to, and where they were."""
+    """Draws the true boxes; those that move where they come to, and where they were."""
     boxes = [true_box(box, box.x, box.y) for box in scene.boxes]
     boxes += [true_box(mover, mover.to_x, mover.to_y) for mover in scene.movers]
     for index, box in enumerate(boxes):
@@ -106,7 +106,7 @@ def _seen_boxes(environment: Mapping[str, Json]) -> list[ObstacleBox]:
 
 
 def _seen_obstacles(run: Run) -> list[ObstacleBox]:
-    """What every sweep saw to lie in the way."""
+    """Reads what every sweep saw to lie in the way."""
     boxes = []
     for seen in _values(run, OBSTACLE_SIGNAL):
         for item in cast(Sequence[Mapping[str, Any]], seen["obstacles"]):

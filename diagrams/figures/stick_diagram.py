@@ -121,7 +121,7 @@ class _Plane:
         return outline_gap(moved, section)
 
     def draw(self, ax: Axes) -> None:
-        """The obstacle as it is, as it was seen, and with its margins."""
+        """Draws the obstacle as it is, as it was seen, and with its margins."""
         if self.true is not None:
             half = self.true.width / 2.0
             ax.add_patch(
@@ -163,7 +163,7 @@ def leg_sticks(
     foot: Foot,
     rows: Sequence[int],
 ) -> LegSticks:
-    """Where a leg truly was.
+    """Computes where a leg truly was.
 
     Args:
         data: the run.
@@ -175,7 +175,7 @@ def leg_sticks(
     robot = data.run.scenario.robot.model()
     context = plant.CreateDefaultContext()
     hip = plant.GetJointByName(robot.leg_joints[foot][0]).frame_on_parent()
-    shank = plant.GetJointByName(robot.leg_joints[foot][3]).child_body()
+    shank = plant.GetJointByName(robot.knee_joints[foot]).child_body()
     ankle = plant.GetBodyByName(robot.foot_bodies[foot])
     toe, heel, floor = outline.toe, -outline.heel, float(outline.foot[:, 1].min())
     chains, outlines = [], []

@@ -63,7 +63,7 @@ def transverse_view(data: RunData) -> Figure:
 
 
 def support_areas(data: RunData) -> list[Vector]:
-    """The polygons of the run that differ from the one before, (k, 2) each, m."""
+    """Reads the polygons of the run that differ from the one before, (k, 2) each, m."""
     areas: list[Vector] = []
     for _, value in data.run.values(POLYGON_SIGNAL):
         vertices = np.array(value["vertices"], dtype=np.float64).reshape(-1, 2)
@@ -73,7 +73,7 @@ def support_areas(data: RunData) -> list[Vector]:
 
 
 def _same(a: Vector, b: Vector) -> bool:
-    """Whether each corner of one polygon is near to one of the other."""
+    """Tells whether each corner of one polygon is near to one of the other."""
     apart = np.linalg.norm(a[:, None] - b[None], axis=2)
     return bool(max(apart.min(axis=0).max(), apart.min(axis=1).max()) < SAME)
 

@@ -81,7 +81,7 @@ def box_clearances(
     state: Vector,
     boxes: Sequence[Box],
 ) -> tuple[BoxClearance, ...]:
-    """The nearest that the robot's surface came to each box.
+    """Computes the least distance of the robot's surface to each box.
 
     Args:
         plant: the finalised plant.
@@ -130,7 +130,7 @@ def box_clearances(
 
 
 def crossed(path: Vector, box: Box) -> bool:
-    """Whether the midpoint of the feet went over a box and ended beyond it.
+    """Tells whether the midpoint of the feet went over a box and ended beyond it.
 
     Args:
         path: midpoints of the feet over time, (n, 2), m.

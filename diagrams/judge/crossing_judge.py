@@ -101,7 +101,7 @@ def measure_crossing(
 
 
 def _passes_over(p_B: Vector, thin: int, box: Box) -> bool:
-    """Whether a path in the box's frame, (n, 3), leads across it and not past its end.
+    """Tells whether a path in the box's frame, (n, 3), crosses it, not past its end.
 
     Args:
         p_B: m.
@@ -115,13 +115,13 @@ def _passes_over(p_B: Vector, thin: int, box: Box) -> bool:
 
 
 def obstacles_crossed(motion: TrueMotion, boxes: Sequence[Box]) -> int:
-    """How many boxes the feet, or one of them, went over and ended beyond."""
+    """Counts the boxes that the feet, or one of them, went over and ended beyond."""
     paths = [midpoints(motion), *(motion.X_WF[foot][:, :2, 3] for foot in FEET)]
     return sum(any(crossed(path, box) for path in paths) for box in boxes)
 
 
-def eyes_summary(evidence: CrossingEvidence) -> dict[str, Json]:
-    """How far the obstacles that were seen are from the true ones.
+def obstacle_map_errors(evidence: CrossingEvidence) -> dict[str, Json]:
+    """Compares the obstacles that were seen with the true ones.
 
     `frames`, then over all that were seen the mean and the largest error of the width,
     the height and the distance of the front face (m) and of the yaw (deg); None
@@ -175,7 +175,7 @@ def _errors(obstacle: Obstacle, floor: float, boxes: Sequence[Box]) -> Vector | 
 
 
 def planning_summary(reports: Sequence[CrossingReport]) -> dict[str, Json] | None:
-    """What the planner says of its crossings, the worst of each figure; None if none.
+    """Gives the planner's figures of its crossings, the worst of each; None if none.
 
     ZMP errors are (x, y), m, over phases 1 to 3, of the multibody ZMP to its reference.
     Static margin and torque are those of a quasi-static plan, None of a dynamic one.

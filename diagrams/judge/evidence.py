@@ -153,7 +153,7 @@ def gather(
 def _crossing(
     task: TaskDiagram, time: Vector, state: Vector, values: Sequence[object]
 ) -> CrossingEvidence | None:
-    """What there is of an obstacle crossing, known by the maps that it logs."""
+    """Gathers the evidence of an obstacle crossing, known by the maps that it logs."""
     maps = [value for value in values if isinstance(value, ObstacleMap)]
     if not maps:
         return None
@@ -167,7 +167,7 @@ def _crossing(
 
 
 def robot_limits(plant: MultibodyPlant, instance: ModelInstanceIndex) -> Limits:
-    """The robot's limits as its description has them, and its weight."""
+    """Reads the robot's limits from its description, and its weight."""
     actuators = [
         plant.get_joint_actuator(index)
         for index in plant.GetJointActuatorIndices(instance)
@@ -187,7 +187,7 @@ def robot_limits(plant: MultibodyPlant, instance: ModelInstanceIndex) -> Limits:
 def joint_velocities(
     plant: MultibodyPlant, instance: ModelInstanceIndex, state: Vector
 ) -> dict[str, Vector]:
-    """The velocity of every actuated joint, (n,) each, rad/s.
+    """Computes the velocity of every actuated joint, (n,) each, rad/s.
 
     Args:
         plant: the finalised plant.

@@ -34,6 +34,7 @@ from footfall.diagrams.judge.rest import true_dcm
 from footfall.diagrams.judge.static_margin import static_margins
 from footfall.diagrams.judge.true_motion import TrueMotion
 from footfall.models.values.feet import FEET, Foot
+from footfall.models.values.geometry import wrap_angle
 from footfall.models.values.vector import Vector
 from footfall.systems.sensing.contact_monitor import LOADED
 from footfall.systems.sensing.measured_zmp import measured_zmp
@@ -43,20 +44,20 @@ RESTED = 0.2
 
 
 def goal_error(evidence: Evidence) -> tuple[float, float]:
-    """Distance to the goal, m, and turn to its heading, rad, at the end."""
+    """Measures the distance to the goal, m, and the turn to its heading, rad."""
     assert evidence.goal is not None
     x, y, yaw = evidence.goal
     feet = np.array([evidence.motion.X_WF[foot][-1] for foot in FEET])
     distance = float(np.hypot(*(feet[:, :2, 3].mean(axis=0) - (x, y))))
     ahead = feet[:, :2, 0].mean(axis=0)
     turn = np.arctan2(ahead[1], ahead[0]) - yaw
-    return distance, float(abs((turn + np.pi) % (2.0 * np.pi) - np.pi))
+    return distance, float(abs(wrap_angle(turn)))
 
 
 def foot_contacts(
     evidence: Evidence, wrenches: dict[Foot, Vector] | None
 ) -> dict[Foot, list[tuple[int, int]]] | None:
-    """When each foot stood, first sample and the one after the last; None unknown."""
+    """Finds when each foot stood, first sample and one after the last; None unknown."""
     if wrenches is None:
         return None
     return {
@@ -71,7 +72,7 @@ def foot_contacts(
 
 
 def footsteps(evidence: Evidence, contacts: dict[Foot, list[tuple[int, int]]]) -> int:
-    """How often a foot was set down elsewhere than it was lifted (by over 2 cm)."""
+    """Counts the footsteps: a foot set down over 2 cm from where it was lifted."""
     count = 0
     for foot, intervals in contacts.items():
         p_WF = evidence.motion.X_WF[foot][:, :3, 3]
@@ -82,7 +83,7 @@ def footsteps(evidence: Evidence, contacts: dict[Foot, list[tuple[int, int]]]) -
 
 
 def steps_climbed(evidence: Evidence, loads: dict[Foot, Vector] | None) -> int | None:
-    """The highest tread that both feet have come to rest on or above before any fall.
+    """Counts the treads up to the highest that both feet rested on before any fall.
 
     None where no stairs were to be climbed or the loads are not known.
     """
@@ -115,7 +116,7 @@ def steps_climbed(evidence: Evidence, loads: dict[Foot, Vector] | None) -> int |
 
 
 def _longest(time: Vector, holds: np.ndarray[tuple[int], np.dtype]) -> float:
-    """For how long on end something held at the most, s."""
+    """Measures for how long on end something held at the most, s."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], holds, [False]])))
     spans = [time[end - 1] - time[start] for start, end in edges.reshape(-1, 2)]
     return float(max(spans, default=0.0))
@@ -153,7 +154,7 @@ def min_zmp_margin(
 def zmp_of_feet(
     motion: TrueMotion, wrenches: Mapping[Foot, Vector], weight: float
 ) -> Vector:
-    """The measured ZMP, (n, 2), m; nan while the feet bear less than a fifth.
+    """Computes the measured ZMP, (n, 2), m; nan while the feet bear less than a fifth.
 
     Args:
         motion: n samples.
@@ -179,7 +180,7 @@ def min_static_margin(
 
 
 def _largest(evidence: Evidence, signal: str) -> float | None:
-    """The largest value of a signal; None where it was not logged."""
+    """Computes the largest value of a signal; None where it was not logged."""
     frame = evidence.frames.get(signal)
     if frame is None or not len(frame):
         return None
@@ -187,13 +188,13 @@ def _largest(evidence: Evidence, signal: str) -> float | None:
 
 
 def max_impact(evidence: Evidence) -> float | None:
-    """The largest mean upward force on one foot, in body weights."""
+    """Computes the largest mean upward force on one foot, in body weights."""
     force = _largest(evidence, "contact_monitor.impact")
     return None if force is None else force / evidence.limits.weight
 
 
 def max_friction_ratio(evidence: Evidence) -> float | None:
-    """The largest mean horizontal over mean upward force of a loaded foot."""
+    """Computes the largest mean horizontal over mean upward force of a loaded foot."""
     return _largest(evidence, "contact_monitor.friction_ratio")
 
 
@@ -217,7 +218,7 @@ def min_clearance(
 def crossing_figures(
     evidence: Evidence, wrenches: dict[Foot, Vector] | None
 ) -> dict[str, Any]:
-    """The fields of a judgement that an obstacle crossing adds."""
+    """Computes the fields of a judgement that an obstacle crossing adds."""
     crossing = evidence.crossing
     if crossing is None:
         return {"min_clearance_m": min_clearance(evidence, wrenches)}

@@ -18,17 +18,17 @@ longer than this, s."""
 
 
 def task_treads(evidence: Evidence) -> tuple[Tread, ...]:
-    """The treads of the staircase that was to be climbed; none in another task."""
+    """Lists the treads of the staircase to be climbed; none in another task."""
     return evidence.treads if evidence.kind == CLIMBING else ()
 
 
 def last_ground(evidence: Evidence) -> Ground:
-    """What both soles should stand on in the end: the top tread, or the floor."""
+    """Finds what both soles should stand on in the end: the top tread, or the floor."""
     return end_ground(task_treads(evidence))
 
 
 def foot_wrenches(evidence: Evidence) -> dict[Foot, Vector] | None:
-    """Each foot's true contact wrench at `motion.time`, (n, 6)."""
+    """Reads each foot's true contact wrench at `motion.time`, (n, 6)."""
     frame = evidence.frames.get("station.foot_wrenches")
     if frame is None:
         return None
@@ -37,7 +37,7 @@ def foot_wrenches(evidence: Evidence) -> dict[Foot, Vector] | None:
 
 
 def signal_at(time: Vector, frame: pd.DataFrame) -> Vector:
-    """A signal's columns at other times, (n, columns); nan where it was not logged."""
+    """Samples a signal's columns at other times, (n, columns); nan where not logged."""
     samples = frame.to_numpy(dtype=np.float64)
     if not len(samples):
         return np.full((len(time), samples.shape[1] - 1), np.nan)
@@ -58,7 +58,7 @@ def foot_loads(evidence: Evidence) -> dict[Foot, Vector] | None:
 
 
 def fall(evidence: Evidence) -> Fall | None:
-    """The first sign of a fall; None where there is none."""
+    """Finds the first sign of a fall; None where there is none."""
     frame = evidence.frames.get("contact_monitor.other_support")
     if frame is None:
         nothing: Vector = np.zeros(0)

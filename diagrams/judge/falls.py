@@ -37,7 +37,7 @@ def base_height(motion: TrueMotion) -> Vector:
 def fall_sign(
     height: float, initial_height: float, torso_up: float, other_support: float
 ) -> str | None:
-    """By what a robot has fallen, in a few words; None where it has not.
+    """Says in a few words by what a robot has fallen; None where it has not.
 
     Args:
         height: of the base above the lower foot, m.
@@ -58,7 +58,7 @@ def fall_sign(
 def find_fall(
     motion: TrueMotion, support_time: Vector, other_support: Vector
 ) -> Fall | None:
-    """The first sign of a fall in a run; None where there is none.
+    """Finds the first sign of a fall in a run; None where there is none.
 
     Args:
         motion: n samples.

@@ -8,6 +8,7 @@ import shapely  # type: ignore[import-untyped]
 from pydrake.math import RigidTransform
 
 from footfall.models.scenes.staircase import Tread
+from footfall.models.values.geometry import rectangle_corners_world
 from footfall.models.values.vector import Vector
 
 ABOVE = 0.005
@@ -31,13 +32,10 @@ class Ground:
     """Lengths of the rectangle along x and y, (2,), m; None where it has no end."""
 
     def outline(self) -> shapely.Polygon | None:
-        """The rectangle in W seen from above; None where it has no end."""
+        """Computes the rectangle in W seen from above; None where it has no end."""
         if self.size is None:
             return None
-        half = self.size / 2.0
-        signs = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
-        p_R = np.column_stack([signs * half, np.zeros(4)])
-        return shapely.Polygon(np.array(self.X_WR.multiply(p_R.T)).T[:, :2])
+        return shapely.Polygon(rectangle_corners_world(self.X_WR, self.size)[:, :2])
 
 
 FLOOR = Ground("the floor", RigidTransform())
@@ -45,12 +43,12 @@ FLOOR = Ground("the floor", RigidTransform())
 
 
 def tread_ground(tread: Tread, name: str) -> Ground:
-    """A tread as ground, called by a name."""
+    """Makes ground of a tread, called by a name."""
     return Ground(name, tread.X_WR, tread.size)
 
 
 def end_ground(treads: Sequence[Tread]) -> Ground:
-    """What a robot stands on in the end: the last tread to climb, or the floor."""
+    """Finds what a robot stands on in the end: the last tread, or the floor."""
     return tread_ground(treads[-1], "the top tread") if treads else FLOOR
 
 
@@ -80,7 +78,7 @@ def sole_outlines(corners: Vector) -> np.ndarray[tuple[int], np.dtype[np.object_
 def carried_outlines(
     corners: Vector, ground: Ground
 ) -> np.ndarray[tuple[int], np.dtype[np.object_]]:
-    """The part of each sole that lies over the ground, polygons, (n,).
+    """Computes the part of each sole that lies over the ground, polygons, (n,).
 
     Args:
         corners: (n, 4, 3), m.
@@ -111,7 +109,7 @@ def share_over(corners: Vector, ground: Ground) -> Vector:
 
 
 def stands_flat(corners: Vector, ground: Ground) -> np.ndarray[tuple[int], np.dtype]:
-    """Whether a sole stands flat on the ground, (n,): at its height and over it.
+    """Tells whether a sole stands flat on the ground, (n,): at its height and over it.
 
     What is not finite does not.
 

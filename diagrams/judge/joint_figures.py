@@ -13,7 +13,7 @@ AT_LIMIT = 1.0 - 1e-6
 
 
 def joint_peaks(evidence: Evidence) -> dict[str, Vector] | None:
-    """Every joint's largest speed, of every step of the plant, (m,) each, rad/s.
+    """Reads every joint's largest speed of each control period, (m,) each, rad/s.
 
     None where the steps were not watched. What was logged of the state counts too: it
     goes on a little longer.
@@ -34,7 +34,7 @@ def sample_period(evidence: Evidence) -> float:
 
 
 def by_joint(evidence: Evidence, signal: str) -> dict[str, Vector]:
-    """A signal with a column an actuator, (n,) each; empty where it was not logged.
+    """Reads a signal with a column an actuator, (n,) each; empty where not logged.
 
     Raises:
         ValueError: the log has another number of columns than there are actuators.
@@ -55,7 +55,7 @@ def by_joint(evidence: Evidence, signal: str) -> dict[str, Vector]:
 def worst_fraction(
     values: Mapping[str, Vector] | None, limits: Mapping[str, float]
 ) -> tuple[float | None, str | None]:
-    """The largest share of its limit that a joint reached, and which joint.
+    """Computes the largest share of its limit that a joint reached, and which joint.
 
     nan, where a value is not a number, is larger than any share.
     """
@@ -73,7 +73,7 @@ def worst_fraction(
 def time_at_limit(
     torques: Mapping[str, Vector], limits: Mapping[str, float], period: float
 ) -> tuple[float | None, str | None]:
-    """For how long any joint's torque was at its limit, s, and which most often.
+    """Measures how long any joint's torque was at its limit, s, and which most often.
 
     Args:
         torques: applied, (n,) each, Nm.

@@ -28,7 +28,7 @@ class Interval(NamedTuple):
 
 
 def contact_intervals(normal_force: Vector, weight: float) -> list[Interval]:
-    """When a foot stood: from loaded (touch-down) until off the ground (lift-off).
+    """Finds when a foot stood: from touch-down (loaded) until lift-off (no force).
 
     Args:
         normal_force: upward force on the foot, (n,), N.
@@ -48,7 +48,7 @@ def contact_intervals(normal_force: Vector, weight: float) -> list[Interval]:
 
 
 def foot_slip(corners: Vector, normal_force: Vector, weight: float) -> float | None:
-    """How far a sole slid while it was loaded, m; None where it never was.
+    """Measures how far a sole slid while it was loaded, m; None where it never was.
 
     Within each contact the four corners' horizontal displacements from where they were
     at touch-down are sorted and the second least is taken, so that rolling over the
@@ -113,7 +113,7 @@ def zmp_margins(
 
 
 def nosings(treads: tuple[Tread, ...]) -> list[Vector]:
-    """The front edge of every tread as its two ends, (2, 3), m."""
+    """Computes the front edge of every tread as its two ends, (2, 3), m."""
     edges = []
     for tread in treads:
         half = tread.size / 2.0
@@ -125,7 +125,7 @@ def nosings(treads: tuple[Tread, ...]) -> list[Vector]:
 def swing_clearance(
     corners: Vector, normal_force: Vector, weight: float, edges: list[Vector]
 ) -> float | None:
-    """The least distance of a swinging sole to an edge that it passes over, m.
+    """Computes the least distance of a swinging sole to an edge that it passes over, m.
 
     An edge counts in a swing when the toes are before it at lift-off and beyond it at
     touch-down. In the plane across the edge the sole is the segment from heel to toe;

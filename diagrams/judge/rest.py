@@ -124,7 +124,7 @@ def rest_figures(
 
 
 def at_rest(figures: RestFigures) -> Flags:
-    """Whether the robot is at rest, (n,); never where a figure is not known."""
+    """Tells whether the robot is at rest, (n,); never where a figure is not known."""
     # Every comparison with nan is false, and so speaks against rest.
     rests = (
         (figures.overlap <= OVERLAP)
@@ -141,7 +141,7 @@ def at_rest(figures: RestFigures) -> Flags:
 
 
 def rest_faults(figures: RestFigures, ground: Ground) -> list[str]:
-    """Why the last `REST_TIME` of a motion was no rest; empty where it was.
+    """Says why the last `REST_TIME` of a motion was no rest; empty where it was.
 
     Args:
         figures: of the motion to its end.

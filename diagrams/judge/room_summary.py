@@ -32,7 +32,7 @@ def room_perception(
     scene: SceneParams,
     ms_per_frame: Mapping[str, float],
 ) -> dict[str, Json] | None:
-    """How perception did in a room; None where nothing was seen.
+    """Compares what was seen of a room with the true one; None where nothing was seen.
 
     Args:
         environments: when, s, what was seen was known, and what was seen.
@@ -90,7 +90,7 @@ def stage_ms(diagram: Diagram, frames: int) -> dict[str, float]:
 
 
 def standing_boxes(scene: SceneParams, time: float) -> list[ObstacleBox]:
-    """The true boxes that stand still at a time, where they stand then."""
+    """Finds the true boxes that stand still at a time, where they stand then."""
     boxes = [true_box(box, box.x, box.y) for box in scene.boxes]
     for mover in scene.movers:
         place = _rest(mover, time)
@@ -108,7 +108,7 @@ def _rest(mover: MoverParams, time: float) -> tuple[float, float] | None:
 
 
 def true_box(box: BoxParams, x: float, y: float) -> ObstacleBox:
-    """The true box with its centre at x, y."""
+    """Finds the true box with its centre at x, y."""
     size: Vector = np.array(box.size)
     center: Vector = np.array([x, y, box.z + size[2] / 2.0])
     return ObstacleBox(box.name, center, box.yaw, size)

@@ -21,7 +21,7 @@ SLIP_ALLOWED = 0.03
 def broken_rules(
     evidence: Evidence, speed: tuple[float | None, str | None], slip: float | None
 ) -> list[str]:
-    """The rules that a run broke, one line each.
+    """Lists the rules that a run broke, one line each.
 
     No joint is faster than its limit, no loaded foot slides by more than
     `SLIP_ALLOWED`, nothing is touched that must not be; in a task that is finished the
@@ -50,7 +50,7 @@ def broken_rules(
 def missing_evidence(
     evidence: Evidence, speed: float | None, slip: float | None
 ) -> list[str]:
-    """What of a run was not watched, so that its rules may have been broken.
+    """Lists what of a run was not watched, so that its rules may have been broken.
 
     Args:
         evidence: of the run.
@@ -73,7 +73,7 @@ def missing_evidence(
 
 
 def _covers(evidence: Evidence, signal: str) -> bool:
-    """Whether a signal was logged, in numbers, from a run's start to its end."""
+    """Tells whether a signal was logged, in numbers, from a run's start to its end."""
     frame = evidence.frames.get(signal)
     if frame is None or not len(frame):
         return False
@@ -85,7 +85,7 @@ def _covers(evidence: Evidence, signal: str) -> bool:
 
 
 def _goal_faults(evidence: Evidence) -> list[str]:
-    """How a task that the executive calls finished missed its goal."""
+    """Says how a task that the executive calls finished missed its goal."""
     if evidence.kind == CLIMBING:
         return [] if evidence.treads else ["there is no staircase to climb"]
     if evidence.goal is None:

@@ -21,7 +21,7 @@ NARROW = 1e-4
 
 
 def true_contact(X_WF: Vector, corners: Vector, friction: float) -> Contact:
-    """The part of a sole that is on the ground: all of it, or its edge where it rolls.
+    """Computes the part of a sole on the ground: all of it, or its edge where it rolls.
 
     Args:
         X_WF: pose of the sole frame, (4, 4).

@@ -39,7 +39,7 @@ class Summary(Judgement):
     versions: Mapping[str, str] = field(default_factory=dict)
 
     def to_json(self) -> dict[str, Json]:
-        """The summary as plain JSON data, the outcome first."""
+        """Computes the summary as plain JSON data, the outcome first."""
         first = ("scenario", "outcome", "reason", "seed")
         data = {name: to_json(value) for name, value in asdict(self).items()}
         return {name: data[name] for name in first} | data
@@ -89,7 +89,7 @@ def perception_summary(
     staircases: Sequence[Staircase],
     treads: Sequence[Tread],
 ) -> dict[str, Json] | None:
-    """How perception did; None where nothing of it was logged.
+    """Summarises perception; None where nothing of it was logged.
 
     Args:
         segmentations: one a frame, poses in W; empty where they were not logged.

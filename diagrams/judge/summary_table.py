@@ -39,7 +39,7 @@ def print_summary(summary: Summary, folder: Path) -> None:
 
 
 def summary_rows(name: str, value: Json) -> list[tuple[str, str]]:
-    """A figure of the summary as rows of name and text, nested ones name by name.
+    """Lists a figure of the summary as rows of name and text, nested ones name by name.
 
     Args:
         name: of the figure.
@@ -62,7 +62,7 @@ def summary_rows(name: str, value: Json) -> list[tuple[str, str]]:
 
 
 def _shown(value: Json) -> str:
-    """A figure to four digits."""
+    """Shows a figure to four digits."""
     if value is None:
         return "not measured"
     if isinstance(value, list):

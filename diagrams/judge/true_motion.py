@@ -34,7 +34,7 @@ class TrueMotion:
 
 
 def sole_corners_F(sole: Sole) -> Vector:
-    """The sole's corners in the sole frame, (4, 3), m, counter-clockwise from above."""
+    """Computes the sole's corners in F, (4, 3), m, counter-clockwise from above."""
     heel, toe, half = -sole.heel, sole.toe, sole.half_width
     return np.array(
         [[heel, -half, 0], [toe, -half, 0], [toe, half, 0], [heel, half, 0]]

@@ -62,7 +62,7 @@ class RobotWatch:
         self._initial = float(base_height(self._motion())[0])
 
     def _motion(self) -> TrueMotion:
-        """The robot's pose now, one sample."""
+        """Reads the robot's pose now, one sample."""
         task, context = self._task, self._context
         state = task.plant.GetPositionsAndVelocities(context, task.robot_instance)
         time: Vector = state[:1] * 0.0 + context.get_time()
@@ -80,7 +80,7 @@ class RobotWatch:
         return share
 
     def fall(self) -> str | None:
-        """By what the robot has fallen, in a few words; None where it has not."""
+        """Says in a few words by what the robot has fallen; None where it has not."""
         motion = self._motion()
         return fall_sign(
             float(base_height(motion)[0]),
@@ -90,12 +90,12 @@ class RobotWatch:
         )
 
     def lies(self) -> bool:
-        """Whether a robot that has fallen has come to lie."""
+        """Tells whether a robot that has fallen has come to lie."""
         speed = rest_figures(self._motion(), None, self._weight, self._ground).speed
         return bool(speed[0] < LIES_STILL and self._upward()[2] > LIES_ON)
 
     def rests(self) -> bool:
-        """Whether the robot is at rest where its task ends."""
+        """Tells whether the robot is at rest where its task ends."""
         upward = self._upward() * self._weight
         loads: dict[Foot, Vector] = {"left": upward[:1], "right": upward[1:2]}
         figures = rest_figures(self._motion(), loads, self._weight, self._ground)
@@ -124,6 +124,6 @@ class HoldClock:
             self._since = time
 
     def done(self) -> bool:
-        """Whether it has held long enough."""
+        """Tells whether it has held long enough."""
         held = 0.0 if self._since is None else self._now - self._since
         return held >= self._duration - 1e-9

@@ -4,8 +4,8 @@ import xml.etree.ElementTree as ET
 from dataclasses import dataclass
 
 import numpy as np
-import trimesh
 
+from footfall.models.robots.link_geometry import link_shapes
 from footfall.models.robots.robot import RobotModel
 from footfall.models.robots.robot_loader import prepared_urdf
 from footfall.models.values.vector import Vector
@@ -21,21 +21,17 @@ class CollisionHull:
 
 
 def collision_hulls(robot: RobotModel) -> tuple[CollisionHull, ...]:
-    """The hull of every body that collides, around all its pieces.
+    """Computes the hull of every body that collides, around all its pieces.
 
     The soles' rubber is not part of it: a foot's hull ends a little above its sole.
     """
     hulls = []
     for link in ET.fromstring(prepared_urdf(robot)).findall("link"):
         pieces = [
-            np.asarray(trimesh.load_mesh(_path(mesh)).vertices, dtype=np.float64)
-            for mesh in link.findall("collision/geometry/mesh")
+            np.asarray(shape.mesh().vertices, dtype=np.float64)
+            for shape in link_shapes(link, "collision", robot.urdf, robot.packages, {})
         ]
         if pieces:
             vertices = np.unique(np.vstack(pieces), axis=0)
             hulls.append(CollisionHull(link.attrib["name"], vertices))
     return tuple(hulls)
-
-
-def _path(mesh: ET.Element) -> str:
-    return mesh.attrib["filename"].removeprefix("file://")

@@ -114,17 +114,17 @@ def add_soles(
 
 
 def is_sole(name: str) -> bool:
-    """Whether a geometry (by its name, with or without scope) belongs to a sole."""
+    """Tells whether a geometry (by its name, scope or none) belongs to a sole."""
     return name.rpartition("::")[2].startswith(SOLE_PREFIX)
 
 
 def _boxes(robot: RobotModel) -> list[tuple[Shape, Vector]]:
-    """The rubber; centres in F."""
+    """Lists the rubber's boxes; centres in F."""
     return [_slab(robot, 0.0)]
 
 
 def _spheres_and_plate(robot: RobotModel) -> list[tuple[Shape, Vector]]:
-    """Three spheres along each side and the plate; centres in F."""
+    """Lists three spheres along each side and the plate; centres in F."""
     sole = robot.sole
     spheres: list[tuple[Shape, Vector]] = [
         (Sphere(SPHERE_RADIUS), np.array([x, y, SPHERE_RADIUS]))
@@ -135,7 +135,7 @@ def _spheres_and_plate(robot: RobotModel) -> list[tuple[Shape, Vector]]:
 
 
 def _slab(robot: RobotModel, recess: float) -> tuple[Shape, Vector]:
-    """The sole's rectangle from `recess` to `SOLE_THICKNESS` above the sole plane."""
+    """Makes the sole's rectangle, `recess` to `SOLE_THICKNESS` above the sole plane."""
     sole = robot.sole
     height = SOLE_THICKNESS - recess
     centre = [(sole.toe - sole.heel) / 2.0, 0.0, recess + height / 2.0]

@@ -63,7 +63,7 @@ def _writable(folder: Path) -> Path:
 
 
 def _is_whole(path: Path) -> bool:
-    """Whether a file is the one that its digest was written of."""
+    """Tells whether a file is the one that its digest was written of."""
     try:
         return _digest_file(path).read_bytes() == _digest_line(path, path.read_bytes())
     except OSError:
@@ -79,7 +79,7 @@ def _digest_line(path: Path, content: bytes) -> bytes:
 
 
 def _write(path: Path, content: bytes) -> None:
-    """In one piece: another process may make the same file at the same time."""
+    """Writes in one piece: another process may make the same file at the same time."""
     partial = path.with_name(f"{path.name}.{os.getpid()}.partial")
     partial.write_bytes(content)
     partial.replace(path)

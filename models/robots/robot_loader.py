@@ -1,28 +1,33 @@
 """From a robot's published description to a model that Drake can simulate.
 
-The stock URDF of JVRC-1 does not load: COLLADA collision meshes, no transmissions, no
-rotor inertia. What is prepared here: visual meshes are converted once into the user's
-cache folder, every part of the body gets the convex hull of its mesh as collision
-geometry, the soles get contact spheres, fingers are welded, every joint gets an
-actuator with the URDF's effort limit and a servo.
+URDFs come as they like: COLLADA, mirrored or no collision meshes, boxes for bodies,
+transmissions or none, no rotor inertia. What is prepared here: meshes are converted
+once into the user's cache folder; every body collides with the convex hulls of its
+collision meshes, or of what is seen of it where it has none; the soles get contact
+geometry; fingers are welded; every joint gets one actuator with its effort limit and a
+servo.
 """
 
 import hashlib
 import json
+import re
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 import trimesh
 from platformdirs import user_cache_path
+from pydrake.common.eigen_geometry import AngleAxis
 from pydrake.geometry import SceneGraph
-from pydrake.math import RigidTransform, RollPitchYaw
+from pydrake.math import RigidTransform, RollPitchYaw, RotationMatrix
 from pydrake.multibody.parsing import Parser
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import JointActuator, ModelInstanceIndex, PdControllerGains
+from scipy.spatial import QhullError
 from trimesh.exchange.gltf import export_gltf
 
 from footfall.models.robots.contact_geometry import (
@@ -30,21 +35,20 @@ from footfall.models.robots.contact_geometry import (
     ContactModel,
     add_soles,
 )
+from footfall.models.robots.link_geometry import (
+    Z_UP_TO_Y_UP,
+    LinkShape,
+    colour_of,
+    link_shapes,
+    material_colours,
+)
 from footfall.models.robots.mesh_cache import cached_files
 from footfall.models.robots.robot import RobotModel
 from footfall.models.robots.self_collision import filter_neighbours
+from footfall.models.robots.urdf import UrdfJoint, parse_xml, read_urdf, without_mass
 from footfall.models.values.vector import Vector
 
-CACHE_VERSION = "4"
-_Z_UP_TO_Y_UP = np.array(
-    [
-        [1.0, 0.0, 0.0, 0.0],
-        [0.0, 0.0, 1.0, 0.0],
-        [0.0, -1.0, 0.0, 0.0],
-        [0.0, 0.0, 0.0, 1.0],
-    ]
-)
-"""glTF's y points up; readers turn it back."""
+CACHE_VERSION = "5"
 SOLE_CLEARANCE = SOLE_THICKNESS + 0.002
 """The foot's hull is cut off this far above the sole, m, so that the sole alone meets
 the ground it stands on."""
@@ -64,25 +68,17 @@ class BodyMesh:
 
 
 def joint_limits(robot: RobotModel) -> dict[str, tuple[float, float]]:
-    """Effort (Nm) and speed (rad/s) limit of every joint that moves, from the URDF."""
-    limits = {}
-    for joint in ET.parse(robot.urdf).getroot().findall("joint"):
-        limit = joint.find("limit")
-        name = joint.attrib["name"]
-        if limit is not None and name not in robot.welded_joints:
-            limits[name] = (
-                float(limit.attrib["effort"]),
-                float(limit.attrib["velocity"]),
-            )
-    return limits
+    """Effort (Nm) and speed (rad/s) limit of every joint that moves."""
+    return {name: (item.effort, item.speed) for name, item in robot.limits.items()}
 
 
 def body_meshes(robot: RobotModel) -> tuple[BodyMesh, ...]:
-    """The visual mesh of every body that has one."""
+    """Gives the surface of every body of which something is seen."""
     meshes = []
-    for link, visual in _visuals(ET.parse(robot.urdf).getroot()):
-        mesh = _load(robot, visual)
-        mesh.apply_transform(_origin(visual))
+    for link, shapes in _links(robot, parse_xml(robot.urdf)):
+        if not shapes.visuals:
+            continue
+        mesh = _joined([shape.mesh() for shape in shapes.visuals])
         meshes.append(
             BodyMesh(
                 link.attrib["name"],
@@ -91,6 +87,17 @@ def body_meshes(robot: RobotModel) -> tuple[BodyMesh, ...]:
             )
         )
     return tuple(meshes)
+
+
+def solid_points(robot: RobotModel) -> dict[str, Vector]:
+    """Points of what each body collides with, (n, 3), m, in the body's frame."""
+    points = {}
+    for link, shapes in _links(robot, bare_urdf(robot)):
+        solid = shapes.collisions or shapes.visuals
+        if solid:
+            meshes = [shape.mesh().vertices for shape in solid]
+            points[link.attrib["name"]] = np.vstack(meshes).astype(np.float64)
+    return points
 
 
 def add_robot(
@@ -112,14 +119,13 @@ def add_robot(
     """
     parser = Parser(plant)
     (instance,) = parser.AddModelsFromString(prepared_urdf(robot), "urdf")
-    limits = joint_limits(robot)
     for index in plant.GetJointIndices(instance):
         joint = plant.get_joint(index)
         if joint.num_velocities() != 1:
             continue
         gains = robot.gains[joint.name()]
         actuator: JointActuator = plant.AddJointActuator(
-            joint.name(), joint, limits[joint.name()][0]
+            joint.name(), joint, robot.limits[joint.name()].effort
         )
         actuator.set_default_rotor_inertia(gains.reflected_inertia)
         actuator.set_default_gear_ratio(1.0)
@@ -132,44 +138,149 @@ def add_robot(
 
 
 def prepared_urdf(robot: RobotModel) -> str:
-    """The robot's URDF with cached meshes, welded fingers and no massless frames."""
-    root = ET.parse(robot.urdf).getroot()
-    massless = {
-        link.attrib["name"]
-        for link in root.findall("link")
-        if link.find("inertial") is None
-    }
-    for link in root.findall("link"):
-        if link.attrib["name"] in massless:
-            root.remove(link)
-    for joint in root.findall("joint"):
-        ends = {joint.find(end).attrib["link"] for end in ("parent", "child")}  # type: ignore[union-attr]
-        if ends & massless:
-            root.remove(joint)
-        elif joint.attrib["name"] in robot.welded_joints:
-            joint.set("type", "fixed")
-            for mimic in joint.findall("mimic"):
-                joint.remove(mimic)
+    """Writes the robot's URDF as Drake is given it.
+
+    Its meshes are those of the cache, its fingers are welded, frames without mass and
+    transmissions are gone: every joint has one actuator, which `add_robot` makes.
+
+    Raises:
+        RobotError: the file is no URDF.
+        ValueError: a link's geometry cannot be read; the link is named.
+    """
+    root = bare_urdf(robot)
     folder = _cache_folder(robot)
-    for link, visual in _visuals(root):
-        name = link.attrib["name"]
-        pieces = range(robot.convex_pieces.get(name, 1))
-        visual_file, *hull_files = cached_files(
-            folder,
-            (f"{name}.gltf", *(f"{name}_{piece}.obj" for piece in pieces)),
-            partial(_convert, robot, name, visual),
+    for link, shapes in _links(robot, root):
+        _prepare_link(robot, folder, link, shapes)
+    root.set("xmlns:drake", "http://drake.mit.edu")
+    return ET.tostring(root, encoding="unicode")
+
+
+def bare_urdf(robot: RobotModel) -> ET.Element:
+    """Keeps the links and joints that Drake is given, their geometry as published."""
+    root, tree = parse_xml(robot.urdf), read_urdf(robot.urdf)
+    dropped = without_mass(tree, named_bodies(robot))
+    _spell_out_materials(root)
+    for link in root.findall("link"):
+        if link.attrib["name"] in dropped:
+            root.remove(link)
+    for element in root.findall("joint"):
+        joint = tree.joints[element.attrib["name"]]
+        if {joint.parent, joint.child} & dropped:
+            root.remove(element)
+        elif joint.name in robot.welded_joints:
+            _weld(element, joint, robot.welded_at.get(joint.name, 0.0))
+        elif joint.name in robot.limits:
+            _limit(element, robot.limits[joint.name].speed)
+    for element in root.findall("transmission"):
+        root.remove(element)
+    for dynamics in root.iterfind("joint/dynamics[@friction]"):
+        del dynamics.attrib["friction"]  # Drake would warn that it has none.
+    return root
+
+
+def _spell_out_materials(root: ET.Element) -> None:
+    """Gives every visual the colour that its material's name means.
+
+    Drake refuses names with two colours, and names whose definition was in a link that
+    is gone.
+    """
+    colours = material_colours(root)
+    given: dict[str, tuple[float, float, float, float]] = {}
+    for number, visual in enumerate(root.iterfind("link/visual")):
+        for material in visual.findall("material"):
+            name = material.get("name", "")
+            rgba = colour_of(material) or colours.get(name)
+            visual.remove(material)
+            if rgba is None:
+                continue
+            if given.setdefault(name, rgba) != rgba:
+                name = f"{name}_{number}"
+            spelt = ET.SubElement(visual, "material", {"name": name})
+            text = " ".join(f"{value:g}" for value in rgba)
+            ET.SubElement(spelt, "color", {"rgba": text})
+    for material in root.findall("material"):
+        root.remove(material)
+
+
+def named_bodies(robot: RobotModel) -> frozenset[str]:
+    """Finds the bodies that the robot's model names."""
+    named = {robot.base_body, robot.torso_body, *robot.foot_bodies.values()}
+    return frozenset(named | ({robot.head_body} if robot.head_body else set()))
+
+
+@dataclass(frozen=True)
+class _Shapes:
+    """What is seen of a link, and what its URDF lets collide."""
+
+    visuals: list[LinkShape]
+    collisions: list[LinkShape]
+
+
+def _links(robot: RobotModel, root: ET.Element) -> Iterator[tuple[ET.Element, _Shapes]]:
+    colours = material_colours(root)
+    for link in root.findall("link"):
+        visuals, collisions = (
+            link_shapes(link, use, robot.urdf, robot.packages, colours)
+            for use in ("visual", "collision")
         )
-        _mesh(visual).set("filename", _uri(visual_file))
-        collision = link.find("collision")
-        if collision is not None:
-            link.remove(collision)
-        for file in hull_files:
+        yield link, _Shapes(visuals, collisions)
+
+
+def _prepare_link(
+    robot: RobotModel, folder: Path, link: ET.Element, shapes: _Shapes
+) -> None:
+    """Names the files of the cache, made where they are missing, in a link's shapes."""
+    name = link.attrib["name"]
+    stem = re.sub(r"[^\w.-]", "_", name)
+    for number, shape in enumerate(shapes.visuals):
+        if shape.source is None:
+            continue
+        suffix = f"-{number}" if number else ""
+        (file,) = cached_files(folder, (f"{stem}{suffix}.gltf",), partial(_gltf, shape))
+        _point_to(shape.element, file)
+    solid = shapes.collisions or shapes.visuals
+    foot = name in robot.foot_bodies.values()
+    pieces = robot.convex_pieces.get(name, 1)
+    if foot or pieces > 1:
+        groups = [solid] if solid else []
+    else:
+        groups = [[shape] for shape in solid if shape.source is not None]
+    for element in link.findall("collision"):
+        primitive = element.find("geometry/mesh") is None
+        if foot or pieces > 1 or not primitive:
+            link.remove(element)
+    count = 0
+    for group in groups:
+        names = [f"{stem}_{count + i}.obj" for i in range(pieces)]
+        count += pieces
+        lowest = SOLE_CLEARANCE - robot.sole.ankle_height if foot else -np.inf
+        make = partial(_hulls, group, pieces, lowest)
+        for file in cached_files(folder, names, make):
+            if not file.stat().st_size:
+                continue
             collision = ET.SubElement(link, "collision", {"name": f"{file.stem}_hull"})
             geometry = ET.SubElement(collision, "geometry")
             hull = ET.SubElement(geometry, "mesh", {"filename": _uri(file)})
             ET.SubElement(hull, "drake:declare_convex")
-    root.set("xmlns:drake", "http://drake.mit.edu")
-    return ET.tostring(root, encoding="unicode")
+    if not shapes.collisions and not foot and pieces == 1:
+        for shape in shapes.visuals:
+            if shape.source is None:
+                _add_primitive(link, shape.element)
+
+
+def _add_primitive(link: ET.Element, visual: ET.Element) -> None:
+    """Lets a box, cylinder or sphere that is seen collide as well."""
+    collision = ET.SubElement(link, "collision")
+    for part in visual:
+        if part.tag in ("origin", "geometry"):
+            collision.append(part)
+
+
+def _point_to(visual: ET.Element, file: Path) -> None:
+    mesh = visual.find("geometry/mesh")
+    assert mesh is not None
+    mesh.set("filename", _uri(file))
+    mesh.attrib.pop("scale", None)
 
 
 def _uri(path: Path) -> str:
@@ -177,66 +288,99 @@ def _uri(path: Path) -> str:
     return f"file://{path}"
 
 
-def _visuals(root: ET.Element) -> Iterator[tuple[ET.Element, ET.Element]]:
-    for link in root.findall("link"):
-        visual = link.find("visual")
-        if visual is not None:
-            yield link, visual
+def _weld(element: ET.Element, joint: UrdfJoint, position: float) -> None:
+    """Fixes a joint at a position."""
+    element.set("type", "fixed")
+    for mimic in element.findall("mimic"):
+        element.remove(mimic)
+    if position == 0.0 or not joint.moves:
+        return
+    if joint.kind == "prismatic":
+        along: Vector = position * joint.axis
+        move = RigidTransform(along)
+    else:
+        turn = RotationMatrix(AngleAxis(position, joint.axis))
+        nowhere: Vector = np.zeros(3)
+        move = RigidTransform(turn, nowhere)
+    X = joint.X_PC.multiply(move)
+    for origin in element.findall("origin"):
+        element.remove(origin)
+    rpy = RollPitchYaw(X.rotation()).vector()
+    xyz = " ".join(repr(float(x)) for x in X.translation())
+    angles = " ".join(repr(float(x)) for x in rpy)
+    ET.SubElement(element, "origin", {"xyz": xyz, "rpy": angles})
 
 
-def _mesh(visual: ET.Element) -> ET.Element:
-    mesh = visual.find("geometry/mesh")
-    if mesh is None:
-        raise ValueError("a visual without a mesh")
-    return mesh
-
-
-def _load(robot: RobotModel, visual: ET.Element) -> trimesh.Trimesh:
-    mesh = trimesh.load_scene(_source(robot, visual)).to_geometry()
-    if not isinstance(mesh, trimesh.Trimesh):
-        raise ValueError(f"{_source(robot, visual)}: not a triangle mesh")
-    return mesh
-
-
-def _source(robot: RobotModel, visual: ET.Element) -> Path:
-    uri = _mesh(visual).attrib["filename"]
-    return robot.package_path / uri.removeprefix("package://").partition("/")[2]
-
-
-def _origin(visual: ET.Element) -> Vector:
-    origin = visual.find("origin")
-    if origin is None:
-        return np.eye(4)
-    rpy: Vector = np.array(origin.get("rpy", "0 0 0").split(), dtype=np.float64)
-    xyz: Vector = np.array(origin.get("xyz", "0 0 0").split(), dtype=np.float64)
-    matrix: Vector = RigidTransform(RollPitchYaw(rpy), xyz).GetAsMatrix4()
-    return matrix
+def _limit(element: ET.Element, speed: float) -> None:
+    """Gives a joint its speed limit where that is not the URDF's own."""
+    limit = element.find("limit")
+    if limit is None:
+        limit = ET.SubElement(element, "limit", {"effort": "0", "velocity": "0"})
+    if float(limit.get("velocity", "0")) != speed:
+        limit.set("velocity", repr(speed))
 
 
 def _cache_folder(robot: RobotModel) -> Path:
-    digest = hashlib.sha256(robot.urdf.read_bytes()).hexdigest()[:12]
-    return user_cache_path("footfall") / f"{robot.name}-{CACHE_VERSION}-{digest}"
+    """Names a folder by the state of the URDF, its meshes and what is made of them."""
+    digest = hashlib.sha256(robot.urdf.read_bytes())
+    made_with = [robot.sole.ankle_height, sorted(robot.convex_pieces.items())]
+    digest.update(repr([made_with, sorted(robot.foot_bodies.values())]).encode())
+    for _, shapes in _links(robot, parse_xml(robot.urdf)):
+        for shape in (*shapes.visuals, *shapes.collisions):
+            if shape.source is not None:
+                state = shape.source.file.stat()
+                digest.update(
+                    f"{shape.source.file} {state.st_size} {state.st_mtime_ns}".encode()
+                )
+    name = re.sub(r"[^\w.-]", "_", robot.name)
+    return (
+        user_cache_path("footfall")
+        / f"{name}-{CACHE_VERSION}-{digest.hexdigest()[:12]}"
+    )
 
 
-def _convert(robot: RobotModel, name: str, visual: ET.Element) -> list[bytes]:
-    """The mesh of a body as glTF to be seen, and its convex pieces as OBJ to be met."""
-    scene = trimesh.load_scene(_source(robot, visual))
-    scene.apply_transform(_Z_UP_TO_Y_UP)  # type: ignore[no-untyped-call]
+def _gltf(shape: LinkShape) -> list[bytes]:
+    """Writes a mesh as glTF to be seen."""
+    scene = shape.scene()
+    scene.apply_transform(Z_UP_TO_Y_UP)  # type: ignore[no-untyped-call]
     files = export_gltf(scene, embed_buffers=True)  # type: ignore[no-untyped-call]
-    mesh = _load(robot, visual)
-    mesh.apply_transform(_origin(visual))
-    vertices = np.asarray(mesh.vertices)
-    if name in robot.foot_bodies.values():
-        lowest = -robot.sole.ankle_height + SOLE_CLEARANCE
-        vertices = np.vstack([vertices[vertices[:, 2] >= lowest], _cut(mesh, lowest)])
-    count = robot.convex_pieces.get(name, 1)
-    hulls = [trimesh.convex.convex_hull(vertices)]
-    if count > 1:
-        hulls = _pieces(mesh, count)
-    return [
-        _opaque(files["model.gltf"]),
-        *(hull.export(file_type="obj").encode() for hull in hulls),
-    ]
+    return [_opaque(files["model.gltf"])]
+
+
+def _hulls(shapes: list[LinkShape], pieces: int, lowest: float) -> list[bytes]:
+    """Convex pieces of shapes as OBJ to be met.
+
+    Args:
+        shapes: of one link.
+        pieces: how many; one is the hull of all.
+        lowest: what lies below this height in the link's frame is cut off, m.
+
+    Returns:
+        As many files; empty ones where nothing is left, or all of it is flat.
+    """
+    mesh = _joined([shape.mesh() for shape in shapes])
+    if pieces > 1:
+        if np.isfinite(lowest):
+            mesh = mesh.slice_plane([0.0, 0.0, lowest], [0.0, 0.0, 1.0])
+        hulls = _pieces(mesh, pieces)
+    else:
+        vertices = np.asarray(mesh.vertices)
+        if np.isfinite(lowest):
+            above = vertices[vertices[:, 2] >= lowest]
+            vertices = np.vstack([above, _cut(mesh, lowest)])
+        try:
+            hulls = [trimesh.convex.convex_hull(vertices)]
+        except (QhullError, ValueError):
+            hulls = []
+    files = [str(hull.export(file_type="obj")).encode() for hull in hulls]
+    return files + [b""] * (pieces - len(files))
+
+
+def _joined(meshes: list[trimesh.Trimesh]) -> trimesh.Trimesh:
+    if len(meshes) == 1:
+        return meshes[0]
+    parts = [trimesh.Trimesh(mesh.vertices, mesh.faces) for mesh in meshes]
+    return cast(trimesh.Trimesh, trimesh.util.concatenate(parts))
 
 
 def _pieces(mesh: trimesh.Trimesh, count: int) -> list[trimesh.Trimesh]:
@@ -248,7 +392,7 @@ def _pieces(mesh: trimesh.Trimesh, count: int) -> list[trimesh.Trimesh]:
 
 
 def _opaque(gltf: bytes) -> bytes:
-    """The same glTF with opaque materials.
+    """Makes the materials of a glTF opaque.
 
     COLLADA's transparency is read as an alpha of 0 where it means that nothing is
     transparent; Meshcat does not mind, VTK then draws nothing.
@@ -262,7 +406,7 @@ def _opaque(gltf: bytes) -> bytes:
 
 
 def _cut(mesh: trimesh.Trimesh, height: float) -> Vector:
-    """Where the mesh's edges cross the plane z = height, (n, 3)."""
+    """Computes where the mesh's edges cross the plane z = height, (n, 3)."""
     ends = mesh.vertices[mesh.edges_unique]
     z = ends[:, :, 2]
     crossing = (z[:, 0] - height) * (z[:, 1] - height) < 0.0

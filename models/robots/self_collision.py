@@ -50,7 +50,7 @@ def joints_between(a: tuple[int, ...], b: tuple[int, ...]) -> int:
 def _chains(
     plant: MultibodyPlant, instance: ModelInstanceIndex
 ) -> dict[BodyIndex, tuple[int, ...]]:
-    """The joints that move between every body and the root."""
+    """Computes the joints that move between every body and the root."""
     above = {
         joint.child_body().name(): joint
         for joint in map(plant.get_joint, plant.GetJointIndices(instance))

@@ -22,11 +22,11 @@ class RoomParams(Parameters):
     """A box-shaped room whose floor is z = 0."""
 
     length: float = number(11.0, "m", above=0.0)
-    """Inner length along the room's x, m (stair paper, Sec. 6)."""
+    """Inner length along the room's x, m (stair paper, Sec. 5)."""
     width: float = number(7.0, "m", above=0.0)
-    """Inner width along the room's y, m (stair paper, Sec. 6)."""
+    """Inner width along the room's y, m (stair paper, Sec. 5)."""
     height: float = number(3.0, "m", above=0.0)
-    """Inner height, m (stair paper, Sec. 6)."""
+    """Inner height, m (stair paper, Sec. 5)."""
     wall_thickness: float = number(0.10, "m", above=0.0)
     """Thickness of the four walls, m."""
     friction: float = number(0.8, above=0.0, below=GREATEST_FRICTION)

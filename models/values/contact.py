@@ -10,7 +10,7 @@ from footfall.models.values.vector import Vector
 
 @dataclass(frozen=True, eq=False)
 class StancePolygon(Value):
-    """Where the CoM may be for the robot to stand still on its present contacts."""
+    """Static-stability polygon: CoM positions in which the robot can stand still."""
 
     vertices: Vector = field(default_factory=lambda: np.zeros((0, 2)))
     """Counter-clockwise vertices (x, y) in W, (n, 2), m; empty where none exists."""
@@ -29,7 +29,7 @@ class Touch(Value):
     solid: str
     """The scene's solid, e.g. "staircase/step_2", or another of the robot's bodies."""
     duration: float
-    """For how long they touched, all in all, s."""
+    """Total duration of their contact, s."""
     peak_force: float
     """The largest contact force between them, N."""
 

@@ -29,6 +29,8 @@ class FieldDescription:
     """bool, float, int or str, of a list its elements'; of a group its class."""
     many: bool
     """Whether it is a list."""
+    named: bool
+    """Whether it maps names to values of that kind, or to lists of them."""
     optional: bool
     """Whether it may be null."""
     default: Any
@@ -64,6 +66,8 @@ class FieldDescription:
             words = self._numbers() if self.many else SCALARS[self.kind]
         if self.bounds:
             words += f" in {self.bounds.interval()} {self.unit}".rstrip()
+        if self.named:
+            words += " by name"
         return f"{words}, or null" if self.optional else words
 
     def shown_default(self) -> str:
@@ -153,6 +157,9 @@ def _describe(
     optional = typing.get_origin(hint) in (typing.Union, types.UnionType)
     if optional:
         hint = typing.get_args(hint)[0]
+    named = typing.get_origin(hint) is dict
+    if named:
+        hint = typing.get_args(hint)[1]
     many = typing.get_origin(hint) is list
     if many:
         hint = typing.get_args(hint)[0]
@@ -162,6 +169,7 @@ def _describe(
         name=item.name,
         kind=hint,
         many=many,
+        named=named,
         optional=optional,
         default=default,
         bounds=item.metadata.get(BOUNDS),

@@ -9,5 +9,5 @@ FEET: tuple[Foot, Foot] = ("left", "right")
 
 
 def other_foot(foot: Foot) -> Foot:
-    """The foot on the other side."""
+    """Returns the foot on the other side."""
     return "right" if foot == "left" else "left"

@@ -1,4 +1,4 @@
-"""What travels on the ports of an obstacle crossing: obstacles and how to step over.
+"""Values on the ports of an obstacle crossing: obstacles and key configurations.
 
 As all of `footfall.models.values`: frozen, comparable, each with a JSON form. W: z up.
 """
@@ -28,23 +28,23 @@ class Obstacle(Value):
     length: float
     """Across that direction, m."""
     support_count: int = 0
-    """How many points it was fitted to."""
+    """Number of points that it was fitted to."""
 
 
 @dataclass(frozen=True, eq=False)
 class ObstacleMap(Value):
-    """What the scans have shown to lie in the way."""
+    """Obstacles and floor that the scans have shown."""
 
     obstacles: tuple[Obstacle, ...] = ()
     """Nearest first."""
     floor_height: float = float("nan")
-    """Of the ground that they stand on, in W, m; nan where no floor was seen."""
+    """Height of the floor they stand on, in W, m; nan where no floor was seen."""
     status: Literal["none", "ok", "no floor"] = "none"
     """"none" before the first scan."""
     floor_outline: Vector = field(default_factory=lambda: np.zeros((0, 2)))
     """Corners of the hull of the floor that was seen, in W, (n, 2), m."""
     sensed_at: float | None = None
-    """When the work on its sweep began, s; None for a cloud without a time."""
+    """Time at which the work on its sweep began, s; None for a cloud without a time."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,5 +76,5 @@ class Feasibility(Value):
 
 
 def across(yaw: float) -> Vector:
-    """The horizontal unit vector in direction yaw, (2,)."""
+    """Computes the horizontal unit vector (cos yaw, sin yaw), (2,)."""
     return np.array([np.cos(yaw), np.sin(yaw)])

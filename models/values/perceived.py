@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass, field
 
-import numpy as np
 from pydrake.math import RigidTransform
 
+from footfall.models.values.geometry import rectangle_corners_world
 from footfall.models.values.value import Value
 from footfall.models.values.vector import Vector
 
@@ -14,7 +14,7 @@ class LaserScan(Value):
     """One line of a scanner on a tilt servo."""
 
     time: float
-    """When the line was taken, s."""
+    """Time at which the line was taken, s."""
     tilt: float
     """Angle of the tilt servo, rad; positive looks down."""
     ranges: Vector
@@ -39,14 +39,11 @@ class PlaneSegment(Value):
     area: float
     """Area of the supporting voxels, m^2."""
     support_count: int
-    """How many points support the plane."""
+    """Number of points that support the plane."""
 
     def corners(self) -> Vector:
-        """The rectangle's corners in W, (4, 3), m, counter-clockwise from above."""
-        half = self.size / 2.0
-        signs = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
-        p_R = np.hstack([signs * half, np.zeros((4, 1))])
-        return np.array(self.X_WR.multiply(p_R.T)).T
+        """Computes the rectangle's corners in W, (4, 3), m, counter-clockwise."""
+        return rectangle_corners_world(self.X_WR, self.size)
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +59,7 @@ class Staircase(Value):
 
 @dataclass(frozen=True, eq=False)
 class PlaneSegmentation(Value):
-    """What one cloud says about horizontal planes."""
+    """Plane segments of one cloud, and the staircase among them."""
 
     planes: tuple[PlaneSegment, ...] = ()
     """Every horizontal plane segment large enough for a foot, largest first."""
@@ -71,4 +68,4 @@ class PlaneSegmentation(Value):
     times_ms: tuple[tuple[str, float], ...] = ()
     """Wall time of each stage, (stage, ms), in order."""
     sensed_at: float | None = None
-    """When the work on its sweep began, s; None for a cloud without a time."""
+    """Time at which the work on its sweep began, s; None for a cloud without a time."""

@@ -18,7 +18,7 @@ from footfall.models.values.vector import Vector
 
 @dataclass(frozen=True, eq=False)
 class Footstep(Value):
-    """Where a foot is to stand."""
+    """Pose at which a foot is to stand."""
 
     foot: Foot
     X_WF: RigidTransform
@@ -34,7 +34,7 @@ class FootstepPlan(Value):
     footsteps: tuple[Footstep, ...] = ()
     status: Literal["planned", "infeasible", "finished"] = "finished"
     reason: str = ""
-    """Why it is infeasible, in one line; empty otherwise."""
+    """Reason for being infeasible, in one line; empty otherwise."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +53,7 @@ class ContactPhase(Value):
 
 @dataclass(frozen=True, eq=False)
 class MotionPlan(Value):
-    """What the feet and the CoM are to do, sampled every `period` from `start_time`.
+    """Reference motion of feet and CoM, sampled every `period` from `start_time`.
 
     Row i is due at start_time + i * period; after the last row it is held. Feet are
     in the order left, right.
@@ -70,7 +70,7 @@ class MotionPlan(Value):
     foot_poses: Vector
     """Sole frames X_WF as (x, y, z, roll, pitch, yaw) of each foot, (n, 2, 6)."""
     contact_lengths: Vector
-    """How much of each sole, from the toe edge back, carries, (n, 2), m: the whole
+    """Length of each sole that carries, from the toe edge back, (n, 2), m: the whole
     sole when flat, a strip at the toes when the heel is lifted."""
     com: Vector
     """p_WCom, (n, 3), m."""
@@ -85,27 +85,27 @@ class MotionPlan(Value):
     waist: Vector
     """Pelvis (roll, pitch, yaw) in W, (n, 3), rad."""
     arms: Vector = field(default_factory=lambda: np.zeros(0))
-    """How far both shoulders pitch from the posture, (n,), rad, positive to the rear;
+    """Pitch of both shoulders from the posture, (n,), rad, positive to the rear;
     empty where they rest."""
     reason: str = ""
-    """Why the footsteps cannot be carried out, in one line; the plan stands then."""
+    """Reason why the footsteps cannot be walked, in one line; the plan stands then."""
 
     @property
     def duration(self) -> float:
-        """From the first row to the last, s."""
+        """Time from the first row to the last, s."""
         return (len(self.zmp) - 1) * self.period
 
     def starting_at(self, time: float) -> "MotionPlan":
-        """The same motion from another time on, s."""
+        """Shifts the motion to another start time, s."""
         return dataclasses.replace(self, start_time=time)
 
 
 @dataclass(frozen=True, eq=False)
 class TaskStatus(Value):
-    """How the task is going, as the executive sees it."""
+    """Progress of the task, as the executive sees it."""
 
     state: Literal["running", "finished", "infeasible"] = "running"
     activity: str = ""
-    """What it is doing now, e.g. "scan", "plan", "move", "stand"."""
+    """Current activity, e.g. "scan", "plan", "move", "stand"."""
     reason: str = ""
-    """Why it stopped, in one line."""
+    """Reason for stopping, in one line."""

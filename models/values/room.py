@@ -1,4 +1,4 @@
-"""What travels on the ports of a room crossing: depth images, environments, paths.
+"""Values on the ports of a room crossing: depth images, environments, paths.
 
 As all of `footfall.models.values`: frozen, comparable, each with a JSON form. W: z up.
 """
@@ -20,14 +20,14 @@ def _no_rows(*shape: int) -> Vector:
 
 @dataclass(frozen=True, eq=False)
 class DepthImage(Value):
-    """One frame of a depth camera.
+    """Frame of a depth camera.
 
     Camera frame C: origin at the pinhole, x to the right of the picture, y down, z
     into the picture.
     """
 
     time: float
-    """When it was taken, s; -inf for the empty image before the first."""
+    """Time at which it was taken, s; -inf for the empty image before the first."""
     X_WC: RigidTransform
     """Pose of the camera."""
     focal_length: float
@@ -50,7 +50,7 @@ class FloorPlane(Value):
     """Share of the points in view that lie on the plane, 0 to 1."""
 
     def height(self, p: Vector) -> float:
-        """Height of the plane in W, m, over the horizontal point p, (2,), m."""
+        """Computes the plane's height in W, m, over the horizontal point p, (2,), m."""
         a, b, c, d = self.coefficients
         return float(-(a * p[0] + b * p[1] + d) / c)
 
@@ -70,13 +70,13 @@ class ObstacleBox(Value):
 
     name: str
     center: Vector
-    """Its centre in W, (3,), m."""
+    """Centre in W, (3,), m."""
     yaw: float
     """Direction of its x axis about z of W, rad."""
     size: Vector
     """Side lengths along its own x, y and z, (3,), m."""
     support_count: int = 0
-    """How many points of the cloud it was fitted to; 0 where it was not seen."""
+    """Number of points that it was fitted to; 0 where it was not seen."""
 
     @property
     def X_WB(self) -> RigidTransform:
@@ -84,14 +84,14 @@ class ObstacleBox(Value):
         return RigidTransform(RollPitchYaw(0.0, 0.0, self.yaw), self.center)
 
     def footprint(self) -> Vector:
-        """Its corners on the floor, (4, 2), m, counter-clockwise from above."""
+        """Computes its corners on the floor, (4, 2), m, counter-clockwise."""
         c, s = cos(self.yaw), sin(self.yaw)
         signs = np.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]])
         corners: Vector = signs * self.size[:2] @ np.array([[c, s], [-s, c]])
         return corners + self.center[:2]
 
     def aligned(self) -> tuple[Vector, Vector]:
-        """The axis-aligned box around it: least and greatest corner in W, (3,), m."""
+        """Computes the axis-aligned box around it: both corners in W, (3,), m."""
         corners, half = self.footprint(), self.size[2] / 2.0
         low = np.append(corners.min(axis=0), self.center[2] - half)
         high = np.append(corners.max(axis=0), self.center[2] + half)
@@ -107,7 +107,7 @@ class Environment(Value):
     reason: str = ""
     """Why there is no floor, in one line; empty otherwise."""
     sensed_at: float | None = None
-    """When the robot looked, s; what it saw is there later. None before it has."""
+    """Time of the frame, s, earlier than that of the result; None before the first."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,7 +123,7 @@ class PathPlan(Value):
     """Heading at the goal, rad."""
     status: Literal["planned", "refused"] = "refused"
     reason: str = ""
-    """Why there is no path, in one line; empty otherwise."""
+    """Reason why there is no path, in one line; empty otherwise."""
     found: Vector = field(default_factory=lambda: _no_rows(2))
     """Corners of the path before it was shortened, (m, 2), m."""
     start_tree: Vector = field(default_factory=lambda: _no_rows(2, 2))

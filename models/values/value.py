@@ -1,4 +1,4 @@
-"""What travels on abstract ports: frozen, comparable, each with a JSON form.
+"""Base of the values on abstract ports: frozen, comparable, each with a JSON form.
 
 World frame W: z up. A foot's sole frame F: origin on the sole under the ankle, x to
 the toes, z up out of the ground.
@@ -17,7 +17,7 @@ Json: TypeAlias = "bool | int | float | str | list[Json] | dict[str, Json] | Non
 
 
 def to_json(value: object) -> Json:
-    """A value of this module (or a part of one) as plain JSON data.
+    """Converts a value of this package, or a part of one, to plain JSON data.
 
     Arrays become nested lists (non-finite numbers become null), poses become
     {"translation": [x, y, z], "quaternion": [w, x, y, z]}, dataclasses become
@@ -52,7 +52,7 @@ def to_json(value: object) -> Json:
 
 
 def pose_from_json(data: Json) -> RigidTransform:
-    """The pose that `to_json` wrote."""
+    """Reads the pose that `to_json` wrote."""
     parts = cast(dict[str, list[float]], data)
     wxyz: Vector = np.array(parts["quaternion"], dtype=np.float64)
     p: Vector = np.array(parts["translation"], dtype=np.float64)
@@ -71,11 +71,11 @@ class Value:
     __hash__ = None  # type: ignore[assignment]
 
     def __deepcopy__(self, memo: dict[int, object]) -> Self:
-        """This value itself: it is immutable, and Drake clones state at every event."""
+        """Returns the value itself: it is immutable, and Drake clones state often."""
         return self
 
     def to_json(self) -> Json:
-        """This value as plain JSON data."""
+        """Converts this value to plain JSON data."""
         return to_json(self)
 
 

@@ -1,4 +1,4 @@
-"""The contact wrench cone: which wrenches a rectangle of ground can exert.
+"""Contact wrench cone of a rectangular contact, as inequalities and as generators.
 
 A wrench is w = (f, tau), force first, of the ground on the robot, (6,), N and N m. A
 contact frame C has its origin at the rectangle's centre, x along the half length X,
@@ -42,21 +42,21 @@ class Contact(Value):
         _check(self.half_length, self.half_width, self.friction)
 
     def corners(self) -> Vector:
-        """The corners p_WCorner, (4, 3), m, counter-clockwise about the normal."""
+        """Computes the corners p_WCorner, (4, 3), m, counter-clockwise from above."""
         p_C = np.zeros((3, 4))
         p_C[:2] = (_SIGNS * [self.half_length, self.half_width]).T
         return np.asarray(self.X_WC.multiply(p_C).T)
 
 
 def point_contact(X_WC: RigidTransform, friction: float) -> Contact:
-    """A contact that can push but exerts no torque at its point: a hand, a fist."""
+    """Makes a contact that exerts no torque at its point: a hand, a fist."""
     return Contact(X_WC, 0.0, 0.0, friction)
 
 
 def sole_contact(
     X_WF: RigidTransform, heel: float, toe: float, half_width: float, friction: float
 ) -> Contact:
-    """The contact of a sole whose frame F is not at the rectangle's centre.
+    """Makes the contact of a sole whose frame F is not at the rectangle's centre.
 
     Args:
         X_WF: pose of the sole frame F (origin under the ankle, x to the toes).
@@ -74,7 +74,7 @@ def sole_contact(
 
 
 def contact_wrench_cone(half_length: float, half_width: float, mu: float) -> Vector:
-    """The closed form of the cone, Caron 2015, Eqs. 8 to 13.
+    """Computes A of the cone A w <= 0 in closed form (Caron 2015, Eqs. 8 to 13).
 
     Rows: four of friction, four of the centre of pressure, eight of the yaw torque.
     With half_length = half_width = 0 they say that a point exerts no torque.
@@ -119,7 +119,7 @@ def contact_wrench_cone(half_length: float, half_width: float, mu: float) -> Vec
 def contact_wrench_generators(
     half_length: float, half_width: float, mu: float
 ) -> Vector:
-    """The span form of the same cone: the edges of the pyramids at the corners.
+    """Computes the cone's generators G: the edges of the corners' friction pyramids.
 
     Args:
         half_length: X, m.
@@ -144,7 +144,7 @@ def contact_wrench_generators(
 
 
 def wrench_transform(X_WC: RigidTransform, p_WQ: Vector | None = None) -> Vector:
-    """The matrix that carries a wrench at C, in C, to one about Q, in W.
+    """Computes the matrix that carries a wrench at C, in C, to one about Q, in W.
 
     Args:
         X_WC: pose of the contact frame.
@@ -161,7 +161,7 @@ def wrench_transform(X_WC: RigidTransform, p_WQ: Vector | None = None) -> Vector
 
 
 def contact_wrench_cone_world(contact: Contact, p_WQ: Vector | None = None) -> Vector:
-    """The cone's inequalities on the wrench in W.
+    """Computes the cone's inequalities on the wrench in W, A_W w <= 0.
 
     Args:
         contact: the contact.
@@ -181,7 +181,7 @@ def contact_wrench_cone_world(contact: Contact, p_WQ: Vector | None = None) -> V
 def contact_wrench_generators_world(
     contact: Contact, p_WQ: Vector | None = None
 ) -> Vector:
-    """The cone's generators in W.
+    """Computes the cone's generators in W.
 
     Args:
         contact: the contact.
@@ -199,7 +199,7 @@ def contact_wrench_generators_world(
 def stance_generators(
     contacts: Sequence[Contact], p_WQ: Vector | None = None
 ) -> Vector:
-    """The generators of the gravito-inertial wrench cone: those of every contact.
+    """Computes the generators of the stance's wrench cone: those of every contact.
 
     The stair paper's Eqs. 4 and 5: what all contacts together can exert is the sum of
     their cones, so its generators are theirs, side by side.
@@ -218,7 +218,7 @@ def stance_generators(
 def _rotation_and_lever(
     X_WC: RigidTransform, p_WQ: Vector | None
 ) -> tuple[Vector, Vector]:
-    """R_WC and the cross-product matrix of p_QC in W."""
+    """Computes R_WC and the cross-product matrix of p_QC in W."""
     x, y, z = X_WC.translation() - (np.zeros(3) if p_WQ is None else p_WQ)
     lever = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     return np.asarray(X_WC.rotation().matrix()), lever

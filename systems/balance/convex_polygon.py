@@ -7,11 +7,11 @@ import numpy as np
 from footfall.models.values.vector import Vector
 
 _TOUCH = 1e-12
-"""How far outside a half plane counts as on its edge, m."""
+"""Distance outside a half plane that counts as on its edge, m."""
 
 
 def clip_square(normals: Vector, offsets: Vector, half_side: float) -> Vector:
-    """The part of a square about the origin that lies in all half planes.
+    """Intersects a square about the origin with half planes.
 
     Cuts by the half planes that the corners violate most, until none is violated: a
     few cuts more than the result has edges, however many half planes there are.
@@ -48,7 +48,7 @@ def clip_square(normals: Vector, offsets: Vector, half_side: float) -> Vector:
 def _cut(
     vertices: list[tuple[float, float]], normal: list[float], offset: float
 ) -> list[tuple[float, float]]:
-    """The part of the polygon in the half plane."""
+    """Cuts the polygon with a half plane."""
     if not vertices:
         return vertices
     n_x, n_y = normal
@@ -67,7 +67,7 @@ def _cut(
 
 
 def simplified(vertices: Vector, tolerance: float = 1e-10) -> Vector:
-    """The polygon without vertices that repeat one or lie on a straight edge.
+    """Removes vertices that repeat one or lie on a straight edge.
 
     Args:
         vertices: (n, 2), m, counter-clockwise.
@@ -96,7 +96,7 @@ def simplified(vertices: Vector, tolerance: float = 1e-10) -> Vector:
 
 
 def signed_margin(vertices: Vector, point: Vector) -> float:
-    """How far a point is inside a convex polygon.
+    """Computes the signed distance of a point to a convex polygon's edge.
 
     Args:
         vertices: (n, 2), m, counter-clockwise; one is a point, two a segment.
@@ -120,13 +120,13 @@ def signed_margin(vertices: Vector, point: Vector) -> float:
 
 
 def area(vertices: Vector) -> float:
-    """The area of a polygon, (n, 2), counter-clockwise, m^2."""
+    """Computes the area of a polygon, (n, 2), counter-clockwise, m^2."""
     x, y = vertices.T
     return float(0.5 * (x @ np.roll(y, -1) - y @ np.roll(x, -1)))
 
 
 def hausdorff_distance(a: Vector, b: Vector) -> float:
-    """The farthest that either convex polygon, (n, 2), reaches from the other, m.
+    """Computes the Hausdorff distance of two convex polygons, (n, 2), m.
 
     Infinity where one of them is empty and the other is not.
     """

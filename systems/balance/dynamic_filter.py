@@ -37,7 +37,7 @@ class MomentumTrajectory:
 def multibody_zmp(
     trajectory: MomentumTrajectory, zmp_height: Vector | float, period: float
 ) -> Vector:
-    """The ZMP of a motion of the whole robot, Eq. 20.
+    """Computes the ZMP of a motion of the whole robot, Eq. 20 (see `zmp_of_rates`).
 
     The rates of momentum are central differences. The paper prints -L_x' in p_y; with
     L about the world's origin the moment balance gives +L_x', which stands here.
@@ -89,7 +89,7 @@ def filter_motion(
     zmp_multibody: Vector,
     gains: PreviewGains,
 ) -> ComMotion:
-    """The second stage of preview, Eq. 19: p_ref2 = p_ref1 - p_MB is followed too.
+    """Applies the second preview stage, Eq. 19: p_ref2 = p_ref1 - p_MB is followed too.
 
     The motion must rest for two previews before its first step: the first stage moves
     one preview ahead of the step, and the second previews what the first does.
@@ -115,7 +115,7 @@ def filter_motion_varying_height(
     params: ZmpPreviewParams,
     weight: Vector | None = None,
 ) -> ComMotion:
-    """The second stage on `footfall.systems.balance.zmp_tracking`, exact on stairs.
+    """Applies the second stage on `zmp_tracking`, exact on stairs.
 
     It knows the whole future and needs no more rest than the first stage did.
 

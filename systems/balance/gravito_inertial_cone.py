@@ -19,12 +19,12 @@ from footfall.systems.balance.contact_wrench_cone import Contact, stance_generat
 _RANK = 1e-9
 """Directions in which the unit generators reach less than this do not count."""
 _VALID = 1e-10
-"""How far a unit generator may violate a unit row that it is meant to obey."""
+"""Largest violation by a unit generator of a unit row that it is meant to obey."""
 
 
 @dataclass(frozen=True, eq=False)
 class GravitoInertialCone:
-    """What wrenches a stance can exert, about Q, in W."""
+    """Cone of the wrenches that a stance can exert, about Q, in W."""
 
     generators: Vector
     """G, (6, m), unit columns: w = G l, l >= 0."""
@@ -32,14 +32,14 @@ class GravitoInertialCone:
     """H, (k, 6), unit rows: H w <= 0. Proven: every generator obeys every row. Whether
     some are missing is for the question to check that is put to them."""
     normals: Vector
-    """Where the cone has no interior: (j, 6), orthonormal, with normals w = 0."""
+    """Equalities of a cone without interior: (j, 6), orthonormal, normals w = 0."""
     p_WQ: Vector
     """The middle of the contacts, (3,), m."""
     unproven: int
-    """How many rows double description gave that a generator disproves."""
+    """Number of rows of double description that a generator disproves."""
 
     def about(self, p_WP: Vector) -> Vector:
-        """The rows for the wrench about another point, (k, 6): H_stab of the paper.
+        """Computes the rows for the wrench about another point, (k, 6): H_stab.
 
         With P the world's origin they are H_stab, and hold for the force per mass
         p_Gdd - g with the torque per mass p_G x (p_Gdd - g) + L_Gd / m.
@@ -52,7 +52,7 @@ class GravitoInertialCone:
 
 
 def centred_generators(contacts: Sequence[Contact]) -> tuple[Vector, Vector]:
-    """The cone's generators, about the middle of the contacts.
+    """Computes the stance's generators about the middle of its contacts.
 
     Args:
         contacts: the stance, at least one.
@@ -84,7 +84,7 @@ def gravito_inertial_cone(contacts: Sequence[Contact]) -> GravitoInertialCone:
 
 
 def cone_of_generators(G: Vector, p_WQ: Vector) -> GravitoInertialCone:
-    """The cone of unit generators G, (6, m), about p_WQ, (3,)."""
+    """Computes the cone of unit generators G, (6, m), about p_WQ, (3,)."""
     basis, normals = span(G)
     flat = len(normals) > 0
     reduced = basis.T @ G if flat else G
@@ -103,7 +103,7 @@ def cone_of_generators(G: Vector, p_WQ: Vector) -> GravitoInertialCone:
 
 
 def span(G: Vector) -> tuple[Vector, Vector]:
-    """Where unit generators G, (6, m), reach, and where they do not.
+    """Computes bases of the span of unit generators G, (6, m), and of its complement.
 
     Returns:
         Orthonormal directions, (6, r) as columns and (6 - r, 6) as rows.
@@ -114,12 +114,12 @@ def span(G: Vector) -> tuple[Vector, Vector]:
 
 
 def proven_rows(rows: Vector, G: Vector) -> Vector:
-    """Those of the unit rows, (k, 6), that all unit generators, (6, m), obey."""
+    """Selects those of the unit rows, (k, 6), that all generators, (6, m), obey."""
     return np.asarray(rows[(rows @ G).max(axis=1, initial=-np.inf) <= _VALID])
 
 
 def _double_description(rays: Vector) -> Vector:
-    """Unit rows a, (k, d), with a r <= 0 for the rays, (m, 1 + d), 0 first."""
+    """Computes unit rows a, (k, d), with a r <= 0 for the rays, (m, 1 + d), 0 first."""
     try:
         matrix = cdd.matrix_from_array(rays.tolist(), rep_type=cdd.RepType.GENERATOR)
         polyhedron = cdd.polyhedron_from_matrix(

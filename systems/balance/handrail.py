@@ -14,7 +14,7 @@ def hand_contact(
     half_length: float = 0.0,
     half_width: float = 0.0,
 ) -> Contact:
-    """The contact of a hand that leans on a surface.
+    """Makes the contact of a hand that leans on a surface.
 
     A hand that closes around a rail can also pull; what it surely can do is push, and
     only that is counted.

@@ -70,7 +70,7 @@ def adapt(
     measured: Vector,
     params: LandingParams,
 ) -> tuple[FootState, Vector, Vector]:
-    """One tick for one foot.
+    """Adapts one foot for one tick.
 
     Args:
         state: after the tick before.
@@ -116,14 +116,14 @@ def adapt(
 
 
 def _level(pose: Vector) -> Vector:
-    """The pose with the sole flat, (6,)."""
+    """Levels the pose so that the sole is flat, (6,)."""
     flat = pose.copy()
     flat[[_ROLL, _PITCH]] = 0.0
     return flat
 
 
 def standing() -> FootState:
-    """A foot that stands where its plan says."""
+    """Makes the state of a foot that stands where its plan says."""
     return FootState(np.zeros(6), np.zeros(6), np.zeros(6), True, 0.0)
 
 

@@ -33,7 +33,7 @@ _MAX_PIVOTS = 500
 
 
 def section_rows(generators: Vector, part: WrenchSlice) -> Vector | None:
-    """The rows of the cone that bound the points whose wrench lies in it.
+    """Selects the cone's rows that bound the section of the points' wrenches.
 
     Args:
         generators: of the cone, (6, m), unit columns.
@@ -78,7 +78,7 @@ def section_rows(generators: Vector, part: WrenchSlice) -> Vector | None:
 def _walk(
     E: Vector, C: Vector, forces: Vector, basis: list[int]
 ) -> list[tuple[tuple[float, float], list[int]]]:
-    """Outward direction and one basis of every edge; none where there is no end."""
+    """Finds outward direction and a basis of every edge; none if unbounded."""
     count = E.shape[1]
     columns = list(basis)
     # Below the four rows of forces, two: what each generator adds to the point. Last

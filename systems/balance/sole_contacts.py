@@ -14,7 +14,7 @@ LIFTED = 1e-6
 def carrying_contact(
     pose: Vector, length: float, sole: Sole, friction: float
 ) -> Contact:
-    """The part of a sole that carries.
+    """Makes the contact of the part of a sole that carries.
 
     Args:
         pose: of the sole frame F in W: x, y, z, m, then roll, pitch, yaw, rad, (6,).
@@ -38,7 +38,7 @@ def carrying_contact(
 
 
 def moved_by(a: Contact, b: Contact) -> float:
-    """How far apart two contacts of the same size are: their farthest corners, m.
+    """Measures the largest distance of corners between two contacts of one size, m.
 
     Infinity where they differ in size or friction.
     """

@@ -1,4 +1,4 @@
-"""Where a robot may have its CoM, or its ZMP, on contacts at any tilt.
+"""Stability polygons of the CoM and the ZMP on contacts at any tilt.
 
 The stair paper's Sec. 6.2: the gravito-inertial wrench cone, cut by the question (at
 rest, accelerating, pushing through a ZMP). The cone's rows come from double
@@ -46,7 +46,7 @@ _ATTEMPTS: dict[Method, tuple[Method, ...]] = {
     "double_description": ("double_description",),
     "projection": (),
 }
-"""What is asked in turn until an answer passes its check."""
+"""Methods asked in turn until an answer passes its check."""
 HALF_SIDE = 10.0
 """An unbounded polygon is clipped to a square of twice this about the contacts, m."""
 _UNREACHED = 1e-9
@@ -74,7 +74,7 @@ class StabilityPolygon(Value):
 def static_polygon(
     contacts: Sequence[Contact], method: Method = "section"
 ) -> StabilityPolygon:
-    """Where the CoM may be for the robot to stand still: a cylinder's section.
+    """Computes the static-stability polygon of the CoM (stair paper, Eqs. 4 and 5).
 
     Args:
         contacts: the stance.
@@ -93,7 +93,7 @@ def robust_polygon(
     acceleration_bound: Vector,
     method: Method = "double_description",
 ) -> StabilityPolygon:
-    """Where the CoM may be and still accelerate any way within bounds.
+    """Computes where the CoM may be and still accelerate any way within bounds.
 
     Args:
         contacts: the stance.
@@ -129,7 +129,7 @@ def zmp_support_area(
     plane_height: float,
     method: Method = "section",
 ) -> StabilityPolygon:
-    """Where the ZMP may be while the force points at a CoM that keeps its height.
+    """Computes the ZMP support area of a CoM that keeps its height.
 
     Caron, Pham and Nakamura, "ZMP support areas for multi-contact mobility under
     frictional constraints" (T-RO 2017), in the mode of the linear pendulum. On level
@@ -158,7 +158,7 @@ def zmp_support_area(
 def required_friction(
     contacts: Sequence[Contact], com: Vector | None = None, limit: float = 100.0
 ) -> float:
-    """The least friction, the same at every contact, with which the stance stands.
+    """Computes the least friction, the same at every contact, of a standing robot.
 
     Args:
         contacts: the stance; their own friction is not used.
@@ -197,7 +197,7 @@ _Slices: TypeAlias = Callable[[Vector], list[WrenchSlice]]
 def _polygon(
     contacts: Sequence[Contact], slices_about: _Slices, method: Method
 ) -> StabilityPolygon:
-    """The points for which every slice's wrench lies in the stance's cone."""
+    """Computes the points for which every slice's wrench lies in the stance's cone."""
     if len(contacts) == 0:
         return StabilityPolygon(status="no_contact", method=method)
     G, p_WQ = centred_generators(contacts)
@@ -223,7 +223,7 @@ def _polygon(
 def _rows(
     method: Method, G: Vector, p_WQ: Vector, slices: list[WrenchSlice]
 ) -> list[Vector] | None:
-    """The proven rows for each slice, (k, 6); none where the method does not apply."""
+    """Selects the proven rows of each slice, (k, 6); none if the method fails."""
     if method == "double_description":
         return [cone_of_generators(G, p_WQ).rows] * len(slices)
     sections = []
@@ -249,7 +249,7 @@ def _result(
 
 
 def _loses_a_dimension(G: Vector, slices: list[WrenchSlice]) -> bool:
-    """Whether the cone is flat across a slice: the answer is a segment or a point.
+    """Tests whether the cone is flat across a slice: the answer is a segment or point.
 
     Half planes cannot tell such an answer from none; linear programmes can.
     """
@@ -261,7 +261,7 @@ def _loses_a_dimension(G: Vector, slices: list[WrenchSlice]) -> bool:
 
 
 def _clip(rows: list[Vector], slices: list[WrenchSlice]) -> Vector:
-    """The slices' half planes, cut out of the square."""
+    """Clips the square with the slices' half planes."""
     normals = np.vstack([H @ part.W for H, part in zip(rows, slices, strict=True)])
     offsets = np.concatenate(
         [-H @ part.w_0 for H, part in zip(rows, slices, strict=True)]
@@ -275,12 +275,12 @@ def _clip(rows: list[Vector], slices: list[WrenchSlice]) -> Vector:
 
 
 def _proven(G: Vector, slices: list[WrenchSlice], vertices: Vector) -> bool:
-    """Whether contact forces exist for every vertex."""
+    """Tests whether contact forces exist for every vertex."""
     return all(_reaches(G, wrench) for part in slices for wrench in part.at(vertices))
 
 
 def _reaches(G: Vector, wrench: Vector) -> bool:
-    """Whether w = G l for some l >= 0."""
+    """Tests whether w = G l for some l >= 0."""
     try:
         distance = nnls(G, wrench)[1]
     except RuntimeError:
@@ -290,7 +290,7 @@ def _reaches(G: Vector, wrench: Vector) -> bool:
 
 
 def _exists(G: Vector, slices: list[WrenchSlice]) -> bool:
-    """Whether each slice has a point; where the solver gives up, taken to have one."""
+    """Tests whether each slice has a point; yes where the solver gives up."""
     for part in slices:
         U = np.linalg.svd(part.W)[0]
         across = U[:, 2:].T

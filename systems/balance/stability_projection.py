@@ -28,7 +28,7 @@ class LinearProgrammeError(RuntimeError):
 def project(
     generators: Vector, slices: Sequence[WrenchSlice], half_side: float
 ) -> Vector:
-    """The points for which the wrenches of all slices lie in the cone.
+    """Projects the cone: the points for which the wrenches of all slices lie in it.
 
     Args:
         generators: of the cone, (6, m).

@@ -1,7 +1,6 @@
 """Static stability as a System: soles and CoM in, polygon and margin out."""
 
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 from pydrake.common.value import AbstractValue
@@ -15,6 +14,7 @@ from footfall.systems.balance.contact_wrench_cone import Contact, sole_contact
 from footfall.systems.balance.convex_polygon import signed_margin
 from footfall.systems.balance.sole_contacts import carrying_contact, moved_by
 from footfall.systems.balance.stability_polygon import StabilityPolygon, static_polygon
+from footfall.systems.held_value import HeldValue
 from footfall.systems.ports import eval_abstract, eval_vector, set_vector
 from footfall.systems.timing import timed
 
@@ -103,8 +103,8 @@ class StaticStability(LeafSystem):
         self._other_contacts = self.DeclareAbstractInputPort(
             "other_contacts", AbstractValue.Make(())
         )
-        self._stance = self.DeclareAbstractState(AbstractValue.Make(_Stance()))
-        state = self.abstract_state_ticket(self._stance)
+        self._stance = HeldValue(self, _Stance())
+        state = self._stance.ticket
         with_com = {state, self._com.ticket()}
         self.DeclareAbstractOutputPort(
             "polygon",
@@ -128,18 +128,12 @@ class StaticStability(LeafSystem):
         self.DeclareInitializationUnrestrictedUpdateEvent(update)
         self.DeclarePeriodicUnrestrictedUpdateEvent(period, 0.0, update)
 
-    def _held(self, context: Context) -> _Stance:
-        state: Any = context.get_abstract_state(int(self._stance))
-        held = state.get_value()
-        assert isinstance(held, _Stance)
-        return held
-
     def _margin(self, context: Context) -> float:
         com = eval_vector(self._com, context)
-        return signed_margin(self._held(context).polygon.vertices, com[:2])
+        return signed_margin(self._stance.get(context).polygon.vertices, com[:2])
 
     def _calc_polygon(self, context: Context, output: AbstractValue) -> None:
-        polygon = self._held(context).polygon
+        polygon = self._stance.get(context).polygon
         output.set_value(
             StancePolygon(polygon.vertices, polygon.status, self._margin(context))
         )
@@ -148,10 +142,10 @@ class StaticStability(LeafSystem):
         set_vector(output, np.array([self._margin(context)]))
 
     def _calc_caught(self, context: Context, output: BasicVector) -> None:
-        set_vector(output, np.array([float(self._held(context).caught)]))
+        set_vector(output, np.array([float(self._stance.get(context).caught)]))
 
     def _update(self, context: Context, state: State) -> None:
-        held = self._held(context)
+        held = self._stance.get(context)
         poses = eval_vector(self._sole_poses, context)
         contacts = eval_vector(self._contacts, context)
         others: tuple[Contact, ...] = ()
@@ -167,12 +161,12 @@ class StaticStability(LeafSystem):
         if held.looked and others == held.others and self._same(soles, held.soles):
             return
         polygon = static_polygon([*soles, *others])
-        state.get_mutable_abstract_state(int(self._stance)).set_value(
-            _Stance(True, soles, others, polygon, held.caught + polygon.caught)
+        self._stance.set(
+            state, _Stance(True, soles, others, polygon, held.caught + polygon.caught)
         )
 
     def _same(self, soles: tuple[Contact, ...], before: tuple[Contact, ...]) -> bool:
-        """Whether no sole came, went or moved; lifted toes stay as the heel rises."""
+        """Tells whether no sole came, went or moved; lifted toes stay."""
         return len(soles) == len(before) and all(
             moved_by(a, b) <= self._tolerance
             for a, b in zip(soles, before, strict=True)

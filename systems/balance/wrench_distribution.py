@@ -73,7 +73,7 @@ def distribute_wrench(
     params: DistributionParams,
     torques: TorqueMap | None = None,
 ) -> tuple[Vector, bool]:
-    """The foot wrenches that come nearest to a net wrench inside their cones.
+    """Computes the foot wrenches that come nearest to a net wrench inside their cones.
 
     Minimises the weighted error of the net wrench plus a small cost on what a foot
     exerts off its centre, subject to the 16 inequalities of each contact wrench cone

@@ -21,20 +21,20 @@ class WrenchSlice:
     w_0: Vector
     """Wrench (force, torque) at p = 0, (6,), 1 and m."""
     W: Vector
-    """Its derivative by p, (6, 2), 1/m and 1."""
+    """Derivative of the wrench by p, (6, 2), 1/m and 1."""
 
     def at(self, points: Vector) -> Vector:
-        """The wrenches at points, (n, 2), m from Q; (n, 6)."""
+        """Computes the wrenches at points, (n, 2), m from Q; (n, 6)."""
         return np.asarray(self.w_0 + points @ self.W.T)
 
 
 def static_slice() -> WrenchSlice:
-    """The CoM above p, at rest: the weight acts through p at any height."""
+    """Makes the slice of a CoM above p, at rest: w = (0, 0, 1; p x e_z)."""
     return accelerated_slice(np.zeros(3), 0.0)
 
 
 def accelerated_slice(acceleration: Vector, height: float) -> WrenchSlice:
-    """The CoM above p, accelerating without change of angular momentum (Eqs. 4, 5).
+    """Makes the slice of a CoM above p that accelerates, with L_G constant.
 
     Args:
         acceleration: a_WCom, (3,), m/s^2.
@@ -52,7 +52,7 @@ def accelerated_slice(acceleration: Vector, height: float) -> WrenchSlice:
 
 
 def zmp_slice(p_QCom: Vector, plane_height: float) -> WrenchSlice:
-    """The ZMP at p while the contact force points at a CoM that keeps its height.
+    """Makes the slice of a ZMP at p, the force pointing at a CoM of constant height.
 
     Args:
         p_QCom: CoM from Q, (3,), m.

@@ -95,7 +95,7 @@ class ComMotion:
 
 
 def cart(period: float) -> tuple[Vector, Vector]:
-    """The triple integrator that is driven by a jerk constant over a tick.
+    """Computes A, b of the triple integrator driven by a jerk constant over a tick.
 
     Args:
         period: T, s.
@@ -149,7 +149,7 @@ def preview_gains(params: ZmpPreviewParams) -> PreviewGains:
 def preview_step(
     gains: PreviewGains, state: Vector, error_sum: Vector, zmp_preview: Vector
 ) -> tuple[Vector, Vector, Vector]:
-    """One tick of the controller for both axes.
+    """Steps the controller by one tick, for both axes.
 
     Args:
         gains: from `preview_gains`.
@@ -169,7 +169,7 @@ def preview_step(
 def generate(
     gains: PreviewGains, zmp_ref: Vector, initial_state: Vector | None = None
 ) -> ComMotion:
-    """The motion that `preview_step` makes over a whole reference, at once.
+    """Computes the motion that `preview_step` makes over a whole reference, at once.
 
     The reference is taken to stay at its last value. The preview is one convolution;
     what is left is a linear recursion, solved as a banded system.
@@ -219,14 +219,14 @@ def generate(
 
 
 def rest_state(p_W: Vector) -> Vector:
-    """The cart's state at rest over p_W, (2,): rows x and y, (2, 3)."""
+    """Makes the cart's state at rest over p_W, (2,): rows x and y, (2, 3)."""
     state = np.zeros((2, 3))
     state[:, 0] = p_W
     return state
 
 
 def rest_error_sum(gains: PreviewGains, p_W: Vector) -> Vector:
-    """The error sum with which the law stays at rest over a ZMP reference at p_W.
+    """Computes the error sum with which the law stays at rest over a ZMP at p_W.
 
     The preview ends after N ticks, so its gains do not add up to the one on position:
     without this sum the CoM is first pulled towards the world's origin. With it the
@@ -243,7 +243,7 @@ def rest_error_sum(gains: PreviewGains, p_W: Vector) -> Vector:
 
 
 def check_reference(zmp_ref: Vector) -> Vector:
-    """The reference as an array of floats.
+    """Checks a reference and returns it as an array of floats.
 
     Raises:
         ValueError: it is not (n, 2) with n of at least 1, or not finite.

@@ -31,7 +31,7 @@ _BAND = 6
 def height_factor(
     com_height: Vector, zmp_height: Vector, com_acceleration: Vector
 ) -> Vector:
-    """How far the ZMP shifts an acceleration: p = com - c a.
+    """Computes c of p = com - c a, the ZMP's shift by an acceleration, s^2.
 
     Args:
         com_height: z of the CoM, (n,), m.
@@ -51,7 +51,7 @@ def generate_varying_height(
     initial_state: Vector | None = None,
     weight: Vector | None = None,
 ) -> ComMotion:
-    """The optimal motion over a whole plan that ends at rest on the last ZMP.
+    """Computes the optimal motion over a plan that ends at rest on the last ZMP.
 
     Minimises sum Q_e w e^2 + R du^2 as `preview_gains` does (e the ZMP error, du the
     increment of the jerk), subject to the triple integrator, the initial state and
@@ -114,7 +114,7 @@ def generate_varying_height(
 
 
 def _optimality_conditions(c: Vector, T: float, Q: Vector, R: float) -> Vector:
-    """The matrix of the optimality conditions in LAPACK's banded form, (13, 3 n).
+    """Builds the optimality conditions in LAPACK's banded form, (13, 3 n).
 
     Row 3 k is the condition on x[k], 3 k + 1 that on a[k], 3 k + 2 the equation whose
     multiplier is l[k]: the initial velocity at k = 0, the terminal one at the last k,

@@ -63,7 +63,7 @@ def window_gains(params: ZmpPreviewParams) -> WindowGains:
 def generate_by_window(
     gains: WindowGains, zmp_ref: Vector, params: ZmpPreviewParams
 ) -> ComMotion:
-    """The motion that Eq. 18 makes over a whole reference, from rest on its first ZMP.
+    """Computes the motion of Eq. 18 over a reference, from rest on its first ZMP.
 
     Args:
         gains: from `window_gains`.

@@ -13,20 +13,20 @@ from footfall.systems.timing import timed
 
 @dataclass(frozen=True)
 class BoxMotion:
-    """One box's way."""
+    """Straight motion of one box."""
 
     start: tuple[float, float]
-    """Where it stands, m."""
+    """Position before the motion, m."""
     end: tuple[float, float]
-    """Where it comes to, m."""
+    """Position after the motion, m."""
     time: float
-    """When it begins to move, s."""
+    """Time at which it begins to move, s."""
     duration: float
-    """How long it takes, s."""
+    """Duration of the motion, s."""
 
 
 def box_motion(motion: BoxMotion, time: float) -> tuple[Vector, Vector]:
-    """Position and velocity at a time, (2,) each, m and m/s: minimum jerk."""
+    """Computes minimum-jerk position and velocity at a time, (2,) each, m and m/s."""
     u = float(np.clip((time - motion.time) / motion.duration, 0.0, 1.0))
     way = np.subtract(motion.end, motion.start)
     position = motion.start + way * (u**3 * (10.0 - 15.0 * u + 6.0 * u**2))

@@ -1,4 +1,4 @@
-"""From a depth image to a down-sampled cloud without the robot's own body."""
+"""Conversion of depth images to down-sampled clouds without the robot's own body."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -52,7 +52,7 @@ class DepthCloudParams(Parameters):
 
 
 def depth_to_points(image: DepthImage) -> Vector:
-    """The points that a depth image saw.
+    """Computes the points of a depth image.
 
     Returns:
         Points in W, (n, 3), m, of the n finite depths, row by row.
@@ -71,7 +71,7 @@ def depth_to_points(image: DepthImage) -> Vector:
 
 
 def downsample(points: Vector, leaf: float) -> Vector:
-    """The centroids of the points in each voxel (room paper, Sec. 2.1.1).
+    """Computes the centroid of the points in each voxel (room paper, Sec. 2.1.1).
 
     Args:
         points: finite, (n, 3), m.
@@ -89,7 +89,7 @@ def downsample(points: Vector, leaf: float) -> Vector:
 
 
 def crop(points: Vector, lower: Sequence[float], upper: Sequence[float]) -> Vector:
-    """The points, (n, 3), that lie within the box between two corners, (3,), m."""
+    """Selects the points, (n, 3), in the box between two corners, (3,), m."""
     inside = np.all((points >= np.array(lower)) & (points <= np.array(upper)), axis=1)
     return points[inside]
 
@@ -100,7 +100,7 @@ def remove_robot(
     body_poses: Sequence[RigidTransform],
     margin: float,
 ) -> Vector:
-    """Points that are not the robot's own.
+    """Removes the points that are the robot's own.
 
     The same as `remove_own_points` for a large cloud of which the robot is a small
     part: only points near its bodies are looked at one by one. They come last.
@@ -126,7 +126,7 @@ def remove_robot(
 
 
 def point_cloud(points: Vector) -> PointCloud:
-    """The points, (n, 3), m, as pydrake's cloud."""
+    """Converts points, (n, 3), m, to a pydrake PointCloud."""
     cloud = PointCloud(len(points))
     cloud.mutable_xyzs()[:] = points.T
     return cloud

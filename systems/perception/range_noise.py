@@ -1,4 +1,4 @@
-"""How much the points of a depth sensor scatter, and so how far to trust them."""
+"""Noise model of a depth sensor: the standard deviation of its points."""
 
 from dataclasses import dataclass
 
@@ -22,11 +22,11 @@ class RangeNoise(Parameters):
     end of a range of 5 m)."""
 
     def deviation(self, distance: Vector) -> Vector:
-        """Standard deviation along the ray, m, at distances (...), m."""
+        """Computes the standard deviation along the ray, m, at distances (...), m."""
         return np.asarray(self.near + self.growth * distance**2)
 
     def height_deviation(self, points: Vector, viewpoint: Vector) -> Vector:
-        """Standard deviation of the heights of points.
+        """Computes the standard deviation of the heights of points.
 
         Args:
             points: (n, 3), m.

@@ -1,4 +1,4 @@
-"""From the lines of a tilting scanner to a cloud without the robot's own body."""
+"""Assembly of a tilting scanner's lines to a cloud without the robot's own body."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -15,6 +15,7 @@ from footfall.models.values.perceived import LaserScan
 from footfall.models.values.validation import Parameters, number
 from footfall.models.values.value import Value
 from footfall.models.values.vector import Vector
+from footfall.systems.held_value import HeldValue
 from footfall.systems.ports import eval_abstract, eval_vector, set_vector
 from footfall.systems.sensing.scan_geometry import line_to_points, tilt_pose
 from footfall.systems.timing import timed
@@ -60,7 +61,7 @@ class SelfFilterBox(Value):
 
 
 def box_around(body_index: int, vertices: Vector) -> SelfFilterBox:
-    """The least box along the body's axes about vertices in its frame, (n, 3), m."""
+    """Computes the least box along the body's axes about vertices, (n, 3), m."""
     least, greatest = vertices.min(axis=0), vertices.max(axis=0)
     centre: Vector = (least + greatest) / 2.0
     return SelfFilterBox(body_index, RigidTransform(centre), greatest - least)
@@ -72,7 +73,7 @@ def remove_own_points(
     body_poses: Sequence[RigidTransform],
     margin: float,
 ) -> Vector:
-    """Points that are not the robot's own (stair paper, Sec. 3).
+    """Removes the points that are the robot's own (stair paper, Sec. 3).
 
     Args:
         p_W: points in W, (n, 3), m.
@@ -100,7 +101,7 @@ def remove_own_points(
 
 @dataclass(frozen=True, eq=False)
 class _Assembly(Value):
-    """What has been taken in so far."""
+    """State: the lines of the present sweep and the last cloud."""
 
     time: float = -math.inf
     """Time of the latest line that was taken in, s."""
@@ -109,7 +110,7 @@ class _Assembly(Value):
     cloud: tuple[Vector, ...] = ()
     """The same of the last finished sweep."""
     sweeps: int = 0
-    """How many sweeps were assembled."""
+    """Number of sweeps assembled."""
 
 
 class ScanAssembler(LeafSystem):
@@ -171,8 +172,8 @@ class ScanAssembler(LeafSystem):
         self._body_poses = self.DeclareAbstractInputPort(
             "body_poses", AbstractValue.Make([RigidTransform()])
         )
-        self._state = self.DeclareAbstractState(AbstractValue.Make(_Assembly()))
-        ticket = {self.abstract_state_ticket(self._state)}
+        self._state = HeldValue(self, _Assembly())
+        ticket = {self._state.ticket}
         calc_cloud: Callable[..., None] = timed(self, self._calc_cloud)
         self.DeclareAbstractOutputPort(
             "cloud",
@@ -188,7 +189,7 @@ class ScanAssembler(LeafSystem):
         )
 
     def _update(self, context: Context, state: State) -> None:
-        was = self._get(context)
+        was = self._state.get(context)
         scan = eval_abstract(self._scan, context, LaserScan)
         if not scan.time > was.time:
             return
@@ -202,20 +203,14 @@ class ScanAssembler(LeafSystem):
         sweeps = int(eval_vector(self._sweep, context)[0])
         if sweeps > was.sweeps:
             now = _Assembly(scan.time, (), now.lines, sweeps)
-        state.get_mutable_abstract_state(int(self._state)).set_value(now)
-
-    def _get(self, context: Context) -> _Assembly:
-        state: Any = context.get_abstract_state(int(self._state))
-        assembly = state.get_value()
-        assert isinstance(assembly, _Assembly)
-        return assembly
+        self._state.set(state, now)
 
     def _calc_cloud(self, context: Context, cloud: AbstractValue) -> None:
-        lines = self._get(context).cloud
+        lines = self._state.get(context).cloud
         points = np.vstack(lines) if lines else np.zeros((0, 3))
         assembled = PointCloud(len(points))
         assembled.mutable_xyzs()[:] = points.T
         cloud.set_value(assembled)
 
     def _calc_sweep(self, context: Context, sweep: BasicVector) -> None:
-        set_vector(sweep, np.array([self._get(context).sweeps], dtype=np.float64))
+        set_vector(sweep, np.array([self._state.get(context).sweeps], dtype=np.float64))

@@ -4,7 +4,6 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 import numpy as np
 from pydrake.common.value import AbstractValue
@@ -16,6 +15,7 @@ from footfall.models.values.room import DepthImage
 from footfall.models.values.validation import MAX_SEED, Parameters, number
 from footfall.models.values.value import Value
 from footfall.models.values.vector import Vector
+from footfall.systems.held_value import HeldValue
 from footfall.systems.ports import eval_abstract, set_vector
 from footfall.systems.sensing.pinhole import looking_at, pixel_rays, pixels_of_sphere
 from footfall.systems.sensing.ray_caster import Beams, BodyMesh, RayCaster
@@ -98,7 +98,7 @@ def depth_noise(depth: Vector, params: DepthCameraParams) -> Vector:
 
 
 def measure_depth(depth: Vector, frame: int, params: DepthCameraParams) -> Vector:
-    """What the camera reports of true depths.
+    """Measures true depths as the camera does.
 
     Args:
         depth: true depths, (n,), m; inf where there is nothing.
@@ -179,8 +179,8 @@ class DepthCamera(LeafSystem):
         self._body_poses = self.DeclareAbstractInputPort(
             "body_poses", AbstractValue.Make([RigidTransform()])
         )
-        self._state = self.DeclareAbstractState(AbstractValue.Make(_Shutter()))
-        ticket = {self.abstract_state_ticket(self._state)}
+        self._state = HeldValue(self, _Shutter())
+        ticket = {self._state.ticket}
         calc_image: Callable[..., None] = timed(self, self._calc_depth_image)
         calc_poses: Callable[..., None] = timed(self, self._calc_frame_body_poses)
         self.DeclareAbstractOutputPort(
@@ -206,14 +206,10 @@ class DepthCamera(LeafSystem):
         body_poses = eval_abstract(self._body_poses, context, list)
         # Copied, since Drake reuses the list that the port holds.
         poses = tuple(RigidTransform(pose) for pose in body_poses)
-        shutter = _Shutter(context.get_time(), self._get(context).frames + 1, poses)
-        state.get_mutable_abstract_state(int(self._state)).set_value(shutter)
-
-    def _get(self, context: Context) -> _Shutter:
-        state: Any = context.get_abstract_state(int(self._state))
-        shutter = state.get_value()
-        assert isinstance(shutter, _Shutter)
-        return shutter
+        shutter = _Shutter(
+            context.get_time(), self._state.get(context).frames + 1, poses
+        )
+        self._state.set(state, shutter)
 
     def _no_image(self) -> DepthImage:
         nothing: Vector = np.zeros((0, 0))
@@ -221,7 +217,7 @@ class DepthCamera(LeafSystem):
         return DepthImage(-math.inf, self._X_WC, focal_length, nothing)
 
     def _calc_depth_image(self, context: Context, image: AbstractValue) -> None:
-        shutter, params = self._get(context), self._params
+        shutter, params = self._state.get(context), self._params
         if not shutter.frames:
             image.set_value(self._no_image())
             return
@@ -242,7 +238,7 @@ class DepthCamera(LeafSystem):
         )
 
     def _calc_frame_body_poses(self, context: Context, poses: AbstractValue) -> None:
-        poses.set_value(list(self._get(context).body_poses))
+        poses.set_value(list(self._state.get(context).body_poses))
 
     def _calc_frame(self, context: Context, frame: BasicVector) -> None:
-        set_vector(frame, np.array([self._get(context).frames], dtype=np.float64))
+        set_vector(frame, np.array([self._state.get(context).frames], dtype=np.float64))

@@ -11,7 +11,7 @@ MIN_FORCE = 1.0
 def measured_zmp(
     X_WF: Vector, wrenches_F: Vector, min_force: float = MIN_FORCE
 ) -> Vector:
-    """The ZMP of what the feet feel, p_WZmp, (..., 3), m; nan while nothing is felt.
+    """Computes the ZMP of the feet's wrenches, p_WZmp, (..., 3), m; nan without any.
 
     It lies at the mean height of the feet, weighted by the upward force on each, where
     the net moment about both horizontal axes vanishes: with net force f and moment m

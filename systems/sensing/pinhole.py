@@ -16,7 +16,7 @@ from footfall.models.values.vector import Vector
 
 @lru_cache(maxsize=4)
 def pixel_rays(rows: int, columns: int, focal_length: float) -> Vector:
-    """Where the pixels look, row by row.
+    """Computes where the pixels look, row by row.
 
     Args:
         rows: height of the picture, pixels.
@@ -38,7 +38,7 @@ def pixel_rays(rows: int, columns: int, focal_length: float) -> Vector:
 def pixels_of_sphere(
     p_CS: Vector, radius: float, rows: int, columns: int, focal_length: float
 ) -> np.ndarray[Any, np.dtype[np.int64]]:
-    """The pixels that may see a sphere: those of the rectangle around its picture.
+    """Finds the pixels that may see a sphere: the rectangle around its picture.
 
     Args:
         p_CS: its centre, (3,), m.

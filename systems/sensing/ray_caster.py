@@ -125,7 +125,7 @@ class _Body:
 def _tree(
     vertices: Vector, triangles: np.ndarray[Any, np.dtype[np.int64]]
 ) -> "o3d.t.geometry.RaycastingScene":
-    """The tree of a mesh; equal meshes have one tree between them.
+    """Gives the tree of a mesh; equal meshes have one tree between them.
 
     A process that holds about a thousand trees crashes in Embree, and Drake never lets
     go of a System whose callbacks are its own methods, nor so of the robot's trees.

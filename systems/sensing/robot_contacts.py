@@ -113,7 +113,7 @@ def watched_geometry(
 def collision_geometries(
     plant: MultibodyPlant, inspector: SceneGraphInspector, body: BodyIndex
 ) -> list[GeometryId]:
-    """The collision geometries of a body.
+    """Finds the collision geometries of a body.
 
     Ids that the plant gives keep it alive for as long as they are kept; these do not.
     """
@@ -125,7 +125,7 @@ def collision_geometries(
 def robot_contacts(
     results: ContactResults, watched: WatchedGeometry
 ) -> list[RobotContact]:
-    """The contacts of the robot; point pairs and hydroelastic surfaces.
+    """Finds the contacts of the robot; point pairs and hydroelastic surfaces.
 
     One between two of its own bodies comes once, as one of the body that comes first.
     """
@@ -149,7 +149,7 @@ def robot_contacts(
 def _contact(
     watched: WatchedGeometry, pushed: GeometryId, other: GeometryId, force: Vector
 ) -> RobotContact | None:
-    """The contact of `pushed`, on which the force acts, with `other`."""
+    """Gives the contact of `pushed`, on which the force acts, with `other`."""
     part, sign = watched.part_of.get(pushed), 1.0
     if part is None:
         part, other, sign = watched.part_of.get(other), pushed, -1.0

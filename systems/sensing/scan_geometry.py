@@ -35,7 +35,7 @@ def beam_directions(angles: Vector) -> Vector:
 
 
 def line_to_points(ranges: Vector, angles: Vector, X_WL: RigidTransform) -> Vector:
-    """The points that a line of ranges saw.
+    """Computes the points that a line of ranges saw.
 
     Args:
         ranges: measured ranges, (n,), m; inf and nan are no returns.

@@ -18,7 +18,7 @@ from footfall.systems.timing import timed
 def actuated_velocities(
     plant: MultibodyPlant, instance: ModelInstanceIndex
 ) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
-    """Where the actuated joints' velocities are in the state, (n,).
+    """Finds the actuated joints' velocities in the state, (n,).
 
     Args:
         plant: the finalised plant.

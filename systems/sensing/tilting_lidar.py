@@ -3,7 +3,6 @@
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from pydrake.common.value import AbstractValue
@@ -15,6 +14,7 @@ from footfall.models.values.perceived import LaserScan
 from footfall.models.values.validation import MAX_SEED, Parameters, number
 from footfall.models.values.value import Value
 from footfall.models.values.vector import Vector
+from footfall.systems.held_value import HeldValue
 from footfall.systems.ports import eval_abstract, eval_vector, set_vector
 from footfall.systems.sensing.ray_caster import BodyMesh, RayCaster
 from footfall.systems.sensing.scan_geometry import (
@@ -108,7 +108,7 @@ def _require_whole(item: str, total: float, step: float) -> None:
 
 
 def measure(distances: Vector, line: int, params: TiltingLidarParams) -> Vector:
-    """What the scanner reports of true distances.
+    """Measures true distances as the scanner does.
 
     Args:
         distances: true distances, (n,), m; inf where there is nothing.
@@ -206,8 +206,8 @@ class TiltingLidar(LeafSystem):
         )
         self._enable = self.DeclareVectorInputPort("enable", 1)
         nothing = LaserScan(-math.inf, float(self._tilts[0]), np.zeros(0))
-        self._state = self.DeclareAbstractState(AbstractValue.Make(_Sweep(nothing)))
-        ticket = {self.abstract_state_ticket(self._state)}
+        self._state = HeldValue(self, _Sweep(nothing))
+        ticket = {self._state.ticket}
         calc_scan: Callable[..., None] = timed(self, self._calc_scan)
         self.DeclareAbstractOutputPort(
             "scan",
@@ -232,21 +232,19 @@ class TiltingLidar(LeafSystem):
         )
 
     def _update(self, context: Context, state: State) -> None:
-        was = self._get(context)
+        was = self._state.get(context)
         enabled = bool(eval_vector(self._enable, context)[0] > 0.5)
         begins = was.lines == 0 and enabled and not was.enabled
         if was.lines == 0 and not begins:
             if enabled != was.enabled:
                 now = _Sweep(was.scan, 0, was.sweeps, enabled)
-                state.get_mutable_abstract_state(int(self._state)).set_value(now)
+                self._state.set(state, now)
             return
         scan = self._take_line(context, was)
         lines, sweeps = was.lines + 1, was.sweeps
         if lines == len(self._tilts):
             lines, sweeps = 0, sweeps + 1
-        state.get_mutable_abstract_state(int(self._state)).set_value(
-            _Sweep(scan, lines, sweeps, enabled)
-        )
+        self._state.set(state, _Sweep(scan, lines, sweeps, enabled))
 
     def _take_line(self, context: Context, sweep: _Sweep) -> LaserScan:
         tilt = float(self._tilts[sweep.lines])
@@ -259,20 +257,14 @@ class TiltingLidar(LeafSystem):
         ranges = measure(distances, line, self._params)
         return LaserScan(context.get_time(), tilt, ranges)
 
-    def _get(self, context: Context) -> _Sweep:
-        state: Any = context.get_abstract_state(int(self._state))
-        sweep = state.get_value()
-        assert isinstance(sweep, _Sweep)
-        return sweep
-
     def _calc_scan(self, context: Context, scan: AbstractValue) -> None:
-        scan.set_value(self._get(context).scan)
+        scan.set_value(self._state.get(context).scan)
 
     def _calc_tilt(self, context: Context, tilt: BasicVector) -> None:
-        set_vector(tilt, np.array([self._get(context).scan.tilt]))
+        set_vector(tilt, np.array([self._state.get(context).scan.tilt]))
 
     def _calc_sweep(self, context: Context, sweep: BasicVector) -> None:
-        set_vector(sweep, np.array([self._get(context).sweeps], dtype=np.float64))
+        set_vector(sweep, np.array([self._state.get(context).sweeps], dtype=np.float64))
 
     def _calc_viewpoint(self, context: Context, viewpoint: BasicVector) -> None:
         body_poses = eval_abstract(self._body_poses, context, list)

@@ -13,7 +13,7 @@ from footfall.systems.timing import timed
 def servo_torque(
     stiffness: Vector, damping: Vector, error: Vector, rate_error: Vector, ahead: Vector
 ) -> Vector:
-    """What a servo asks of its motor: kp (q* - q) + kd (v* - v) + tau, (n,), Nm.
+    """Computes a servo's torque kp (q* - q) + kd (v* - v) + tau, (n,), Nm.
 
     Args:
         stiffness: kp, (n,), Nm/rad.

@@ -128,10 +128,10 @@ class WholeBodyIk:
                 self._posture_weight[index] = params.leg_weight
         self.posture = default_posture(plant, robot)
         swing = [plant.GetJointByName(name) for name in robot.swing_joints]
-        self._swing = np.array([joint.velocity_start() for joint in swing])
+        self._swing = np.array([joint.velocity_start() for joint in swing], dtype=int)
 
     def solve(self, context: Context, target: IkTarget) -> tuple[Vector, bool]:
-        """The generalised velocity of this tick.
+        """Solves for the generalised velocity of this tick.
 
         Args:
             context: of the plant, with the present reference positions.

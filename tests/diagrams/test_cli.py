@@ -17,7 +17,10 @@ from footfall.diagrams.signals import load_run
 from footfall.models.values.planned import TaskStatus
 from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterParams
 
-COMMANDS = ("list", "run", "segment", "plot", "replay", "render", "diagram")
+COMMANDS = (
+    *("list", "run", "segment", "plot", "replay", "render", "diagram"),
+    "check-robot",
+)
 
 
 def footfall(*arguments: object):

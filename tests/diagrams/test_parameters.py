@@ -21,6 +21,7 @@ import footfall.systems
 from footfall.diagrams.scenario import Scenario
 from footfall.diagrams.task_params import PushParams
 from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.robots.robot_description import FeetDescription, RobotDescription
 from footfall.models.scenes.mover import MoverParams
 from footfall.models.scenes.obstacle import BoxParams
 from footfall.models.scenes.room import RoomParams
@@ -55,8 +56,9 @@ from footfall.systems.planning.path.path_planner import PathPlanner
 from footfall.systems.sensing.depth_camera import DepthCameraParams
 from footfall.systems.sensing.tilting_lidar import TiltingLidarParams
 
-NUMBERS = (int, float, list[float], list[float] | None)
+NUMBERS = (int, float, float | None, list[float], list[float] | None)
 """The types of the fields that hold numbers."""
+FREE_TEXTS = ("name", "description", "body", "urdf", "left", "right")
 LARGEST = 2**31
 """No number of a scenario is larger."""
 
@@ -123,6 +125,9 @@ BUILT: dict[type[Parameters], Callable[[Any], object]] = {
 def _valid(one: type[Parameters]) -> Parameters:
     if one is Scenario:
         return Scenario(scene=SceneParams(staircase=StaircaseParams()))
+    if one is RobotDescription:
+        feet = FeetDescription(left="left_foot", right="right_foot")
+        return RobotDescription(urdf="robot.urdf", foot_bodies=feet)
     return PushParams(force=[1.0, 0.0, 0.0]) if one is PushParams else one()
 
 
@@ -131,8 +136,9 @@ def _with(one: type[Parameters], name: str, value: float) -> Parameters:
     params = _valid(one)
     before = getattr(params, name)
     item = next(item for item in dataclasses.fields(one) if item.name == name)
-    if item.type not in (int, float):
-        before = list(before or [-1.0, -1.0, -1.0])
+    if item.type not in (int, float, float | None):
+        length = item.metadata[BOUNDS].length or 3
+        before = list(before or [-1.0] * length)
         value = [*before[:-1], value]  # type: ignore[assignment]
     elif item.type is int and math.isfinite(value):
         value = int(value)
@@ -147,7 +153,7 @@ def test_every_number_states_its_bounds(one: type[Parameters]) -> None:
     _valid(one).validate()
     for item in dataclasses.fields(one):
         assert (BOUNDS in item.metadata) == (item.type in NUMBERS)
-        if item.type is str and item.name not in ("name", "description", "body"):
+        if item.type is str and item.name not in FREE_TEXTS:
             assert CHOICES in item.metadata
 
 

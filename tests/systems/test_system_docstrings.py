@@ -51,6 +51,7 @@ from footfall.systems.planning.executive.path_executive import (
     PathExecutive,
     PathExecutiveParams,
 )
+from footfall.systems.planning.executive.stand_executive import StandExecutive
 from footfall.systems.planning.footsteps.footstep_params import FootstepPlannerParams
 from footfall.systems.planning.footsteps.footstep_planner import FootstepPlanner
 from footfall.systems.planning.motion.motion_params import MotionPlannerParams
@@ -159,6 +160,7 @@ FACTORIES: dict[type[LeafSystem], Callable[[], LeafSystem]] = {
     SpeedMonitor: lambda: SpeedMonitor(*robot_alone(), 0.0025),
     Stabilizer: lambda: Stabilizer(StabilizerParams(), JVRC1.sole, 62.4),
     StaircaseMap: StaircaseMap,
+    StandExecutive: lambda: StandExecutive(standing_plan(), 1.0),
     StaticStability: lambda: StaticStability(0.1, 0.1, 0.05, 0.7),
     TiltingLidar: lambda: TiltingLidar(
         TiltingLidarParams(),

@@ -14,12 +14,12 @@ from footfall.models.values.vector import Vector
 from footfall.systems.perception.clouds.cloud_claims import check_claim
 
 DEFLATE_LARGEST_RATIO = 1032
-"""Of deflate: no byte of compressed data stands for more."""
+"""Largest ratio of deflate: no byte of compressed data stands for more."""
 HEADERS = {(1, 0): npy.read_array_header_1_0, (2, 0): npy.read_array_header_2_0}
 
 
 def read_npy(path: Path) -> Vector:
-    """Read the points of a .npy file, (n, 3), as they are.
+    """Reads the points of a .npy file, (n, 3), as they are.
 
     Raises:
         ValueError: it is no such file, promises more than it holds, or is no cloud.
@@ -33,7 +33,7 @@ def read_npy(path: Path) -> Vector:
 
 
 def read_npz(path: Path) -> Vector:
-    """Read the points of a .npz file, (n, 3): its only array or the one `points`.
+    """Reads the points of a .npz file, (n, 3): its only array or the one `points`.
 
     Raises:
         ValueError: it is no such file, promises more than it holds, or is no cloud.
@@ -65,7 +65,7 @@ class _NoArrayError(Exception):
 
 
 def _read_array(file: IO[bytes], size: int) -> NDArray[Any]:
-    """The array in the `size` bytes of a file, its header checked before its data."""
+    """Reads the array in the `size` bytes of a file, its header before its data."""
     try:
         version = npy.read_magic(file)
         if version not in HEADERS:
@@ -87,7 +87,7 @@ def _read_array(file: IO[bytes], size: int) -> NDArray[Any]:
 
 
 def _points_of(name: str, array: NDArray[Any]) -> Vector:
-    """The points of an array (n, 3 or more), (h, w, 3), or of records with x, y, z."""
+    """Reads the points of an array (n, 3 or more), (h, w, 3), or of x, y, z records."""
     fields = array.dtype.names
     if fields is not None and set("xyz") <= set(fields):
         array = np.stack([array[axis] for axis in "xyz"], axis=-1)

@@ -21,7 +21,7 @@ READERS: dict[str, Callable[[Path], Vector]] = {
     ".npy": read_npy,
     ".npz": read_npz,
 }
-"""What reads each kind of file; a ValueError says what is wrong with the file."""
+"""Reader of each kind of file; a ValueError says what is wrong with the file."""
 MESH_SUFFIXES = (".stl", ".obj", ".off", ".dae", ".glb", ".gltf", ".3mf")
 
 
@@ -40,7 +40,7 @@ class CloudFileError(Exception):
 
 
 def read_cloud(path: Path) -> Vector:
-    """Read the points of a file, (n, 3), m, those that are not finite left out.
+    """Reads the points of a file, (n, 3), m, those that are not finite left out.
 
     What a file claims to hold is checked against its size before memory is taken.
     The kinds: `.pcd` (ascii, binary, compressed; any number type) and `.ply` that is

@@ -15,13 +15,13 @@ LONGEST_HEADER = 65_536
 MAX_COLUMNS = 4096
 """Numbers in a point; the longest descriptors have hundreds."""
 LZF_LARGEST_RATIO = 88
-"""Of LZF: three bytes stand for at most 264."""
+"""Largest ratio of LZF: three bytes stand for at most 264."""
 SIZES = struct.Struct("<II")
 """Before compressed data: its size and that of what it holds, bytes."""
 
 
 def read_pcd(path: Path) -> Vector:
-    """Read the fields x, y and z of a .pcd file, (n, 3), as they are, in its frame.
+    """Reads the fields x, y and z of a .pcd file, (n, 3), as they are, in its frame.
 
     The viewpoint in the header is not applied.
 
@@ -36,7 +36,7 @@ def read_pcd(path: Path) -> Vector:
 
 
 def _read_header(file: BinaryIO) -> dict[str, list[str]]:
-    """Header lines by their first word, the file left at the first byte of data."""
+    """Reads header lines by their first word, up to the first byte of data."""
     header: dict[str, list[str]] = {}
     while "DATA" not in header:
         line = file.readline(LONGEST_HEADER)
@@ -107,7 +107,7 @@ def _read_data(header: dict[str, list[str]], file: BinaryIO, held: int) -> Vecto
 
 
 def _plain_rows(file: BinaryIO, points: int, columns: int) -> bytes:
-    """The rows of an ascii file with one blank between numbers, as pypcd4 wants it."""
+    """Reads the rows of an ascii file with one blank between numbers, for pypcd4."""
     rows = [b" ".join(row) for row in map(bytes.split, file) if row]
     whole = sum(row.count(b" ") == columns - 1 for row in rows)
     if not whole == len(rows) == points:
@@ -119,7 +119,7 @@ def _plain_rows(file: BinaryIO, points: int, columns: int) -> bytes:
 
 
 def _compressed(file: BinaryIO, points: int, needed: int, held: int) -> bytes:
-    """The compressed data with its two sizes, when they fit the file and each other."""
+    """Reads the compressed data and its two sizes, if they fit the file."""
     if points == 0:
         return b""
     sizes = file.read(SIZES.size)

@@ -21,7 +21,7 @@ IS_A_MESH = (
 
 
 def read_ply(path: Path) -> Vector:
-    """Read x, y and z of the vertices of a .ply file, (n, 3), as they are.
+    """Reads x, y and z of the vertices of a .ply file, (n, 3), as they are.
 
     Raises:
         ValueError: it is a mesh, or no .ply file, or promises more than it holds.
@@ -65,7 +65,7 @@ def read_ply(path: Path) -> Vector:
 
 
 def _count_elements(file: BinaryIO) -> dict[str, int]:
-    """How many of each element the header promises; the file is left behind it."""
+    """Counts each element the header promises; the file is left behind it."""
     counts: dict[str, int] = {}
     first = True
     while True:

@@ -13,7 +13,7 @@ from footfall.models.values.vector import Vector
 from footfall.systems.perception.clouds.cloud_claims import MAX_POINTS
 
 COMMENTS = ("#", "//", "%")
-"""What a line that is no point may start with."""
+"""First characters of a line that is no point."""
 DECIMAL_COMMA = re.compile(r"[+-]?\d+(,\d+)?([eE][+-]?\d+)?")
 """A number whose decimals come after a comma, or a whole one."""
 AXIS = re.compile(r"([xyz])\s*(\[m\]|\(m\))?")
@@ -23,14 +23,14 @@ SEPARATORS = re.compile(r"[;,\s]+")
 
 @dataclass(frozen=True)
 class TableLayout:
-    """How the points of a table are written."""
+    """Layout of a table of points."""
 
     separator: str | None
-    """What stands between columns; None for blanks."""
+    """Separator of columns; None for blanks."""
     decimal_comma: bool
     """Whether decimals come after a comma."""
     width: int
-    """How many columns there are."""
+    """Number of columns."""
     axes: tuple[int, int, int]
     """The columns of x, y and z."""
     named: bool
@@ -38,7 +38,7 @@ class TableLayout:
 
 
 def read_table(path: Path) -> Vector:
-    """Read the points of a table, (n, 3), a point a line, three or more columns.
+    """Reads the points of a table, (n, 3), a point a line, three or more columns.
 
     Columns stand between commas, semicolons, tabs or blanks; decimals after a point,
     or after a comma where columns stand between something else. A line of names
@@ -107,7 +107,7 @@ def _read_lines(lines: Iterator[str]) -> Vector:
 
 
 def find_layout(line: str, names: str | None, said: bool) -> TableLayout:
-    """Tell how a table is written from its first point and its names.
+    """Finds how a table is written from its first point and its names.
 
     Args:
         line: the first point.
@@ -148,7 +148,7 @@ def find_layout(line: str, names: str | None, said: bool) -> TableLayout:
 def _find_axes(
     names: str, separator: str | None, width: int
 ) -> tuple[int, int, int] | None:
-    """The columns that are called x, y and z, when each column has a name."""
+    """Finds the columns called x, y and z, when each column has a name."""
     for titles in (names.split(separator), SEPARATORS.split(names)):
         found = [AXIS.fullmatch(title.strip().lower()) for title in titles]
         axes = [match.group(1) if match else "" for match in found]
@@ -162,7 +162,7 @@ class _RowError(Exception):
 
 
 def _rows(numbered: Iterable[tuple[int, str]], layout: TableLayout) -> Iterator[str]:
-    """The points of a table as NumPy reads them, each with its number of columns."""
+    """Reads the points of a table with NumPy, each with its number of columns."""
     points = 0
     for number, line in numbered:
         if not line or line.startswith(COMMENTS):
@@ -183,7 +183,7 @@ def _rows(numbered: Iterable[tuple[int, str]], layout: TableLayout) -> Iterator[
 
 
 def _clean(line: str) -> str:
-    """The line without quotes, and without a comment behind its numbers."""
+    """Strips quotes, and a comment behind the numbers, from a line."""
     line = line.replace('"', "").strip()
     return line if line.startswith("#") else line.partition("#")[0].rstrip()
 

@@ -67,7 +67,7 @@ def find_boxes(
     viewpoint: Vector,
     params: ObstacleClustererParams,
 ) -> tuple[ObstacleBox, ...]:
-    """The obstacles in the points above the floor.
+    """Finds the obstacles in the points above the floor.
 
     Args:
         points: in W, (n, 3), m.
@@ -99,7 +99,7 @@ def fit_box(
     viewpoint: Vector,
     params: ObstacleClustererParams,
 ) -> ObstacleBox:
-    """The upright box of one cluster, from the floor to its top.
+    """Fits an upright box to one cluster, from the floor to its top.
 
     Args:
         points: at least three, in W, (n, 3), m.
@@ -126,7 +126,7 @@ def fit_box(
 
 
 def top_height(z: Vector, half_window: float, share: float) -> float:
-    """The height of an object's top face: its highest dense level.
+    """Estimates the height of an object's top face: its highest dense level.
 
     Args:
         z: heights of its points, (n,), m.
@@ -153,7 +153,7 @@ def top_height(z: Vector, half_window: float, share: float) -> float:
 
 
 def even_rectangle(plan: Vector, tail: float) -> tuple[Vector, float, Vector]:
-    """The least rectangle that points fill evenly, from the quantiles of the points.
+    """Fits the least rectangle that points fill evenly, from the points' quantiles.
 
     Args:
         plan: points, (n, 2), m.
@@ -178,7 +178,7 @@ def even_rectangle(plan: Vector, tail: float) -> tuple[Vector, float, Vector]:
 
 
 def _min_angle(plan: Vector, angles: Vector, tail: float) -> float:
-    """The angle, of (m,), rad, whose rectangle is least.
+    """Finds the angle, of (m,), rad, whose rectangle is least.
 
     About the true angle the area hardly changes as long as a turn moves the sides by
     less than the tails, so the middle of all angles that are nearly as good counts.
@@ -193,7 +193,7 @@ def _min_angle(plan: Vector, angles: Vector, tail: float) -> float:
 
 
 def _spans(plan: Vector, angles: Vector, tail: float) -> tuple[Vector, Vector]:
-    """Ends, (m, 2), m, of points along the axes of frames turned by angles, (m,)."""
+    """Computes ends, (m, 2), m, of points along the axes of frames turned by (m,)."""
     c, s = np.cos(angles), np.sin(angles)
     along = np.stack(
         [

@@ -13,11 +13,11 @@ def cluster_points(points: Vector, radius: float, cell: float) -> NDArray[np.int
     """Groups points that are linked by gaps of less than a radius, seen from above.
 
     The paper's algorithm floods from point to point through a k-d tree; the groups are
-    the connected components of the graph of near pairs. Obstacles become boxes that
-    stand on the floor, so what overlaps seen from above is one obstacle, and only the
-    horizontal distance counts: a box's top and its foot belong together though the
-    camera sees nothing between them. Points are first gathered in columns, which
-    leaves the graph small.
+    the connected components of the graph of near pairs. Where the paper takes
+    distances in space, here only the horizontal distance counts: obstacles become boxes
+    that stand on the floor, so what overlaps seen from above is one obstacle, and a
+    box's top and its foot belong together though the camera sees nothing between them.
+    Points are first gathered in columns, which leaves the graph small.
 
     Args:
         points: (n, 3), m.

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 import numpy as np
 from pydrake.common.value import AbstractValue
@@ -18,6 +17,7 @@ from pydrake.systems.framework import (
 from footfall.models.values.obstacle import ObstacleMap
 from footfall.models.values.validation import require_at_least
 from footfall.models.values.vector import Vector
+from footfall.systems.held_value import HeldValue
 from footfall.systems.perception.obstacles.obstacles import (
     ObstacleFinderParams,
     find_obstacles,
@@ -29,11 +29,11 @@ from footfall.systems.timing import timed
 
 @dataclass(frozen=True, eq=False)
 class _Seen(Thought):
-    """What the last finished sweep showed."""
+    """State: the map of the last finished sweep."""
 
     map: ObstacleMap = field(default_factory=ObstacleMap)
     sweeps: int = 0
-    """How many sweeps were finished then."""
+    """Number of sweeps finished then."""
 
 
 class ObstacleFinder(LeafSystem):
@@ -82,8 +82,8 @@ class ObstacleFinder(LeafSystem):
         )
         self._viewpoint = self.DeclareVectorInputPort("viewpoint", 3)
         self._sweep = self.DeclareVectorInputPort("sweep", 1)
-        self._state = self.DeclareAbstractState(AbstractValue.Make(_Seen()))
-        ticket = {self.abstract_state_ticket(self._state)}
+        self._state = HeldValue(self, _Seen())
+        ticket = {self._state.ticket}
         calc_map: Callable[..., None] = timed(self, self._calc_map)
         self.DeclareAbstractOutputPort(
             "obstacle_map",
@@ -99,7 +99,7 @@ class ObstacleFinder(LeafSystem):
         )
 
     def _look(self, context: Context, state: State) -> EventStatus:
-        was, time = self._get(context), context.get_time()
+        was, time = self._state.get(context), context.get_time()
         now = was.at(time)
         sweeps = int(eval_vector(self._sweep, context)[0])
         if now.coming is None and sweeps > now.sweeps:
@@ -112,18 +112,12 @@ class ObstacleFinder(LeafSystem):
             now = now.until(ready, seen).at(time)
         if now is was:
             return EventStatus.DidNothing()
-        state.get_mutable_abstract_state(int(self._state)).set_value(now)
+        self._state.set(state, now)
         return EventStatus.Succeeded()
 
-    def _get(self, context: Context) -> _Seen:
-        held: Any = context.get_abstract_state(int(self._state))
-        seen = held.get_value()
-        assert isinstance(seen, _Seen)
-        return seen
-
     def _calc_map(self, context: Context, output: AbstractValue) -> None:
-        output.set_value(self._get(context).map)
+        output.set_value(self._state.get(context).map)
 
     def _calc_sweep(self, context: Context, output: BasicVector) -> None:
-        sweeps: Vector = np.array([self._get(context).sweeps], dtype=np.float64)
+        sweeps: Vector = np.array([self._state.get(context).sweeps], dtype=np.float64)
         set_vector(output, sweeps)

@@ -52,7 +52,7 @@ class ObstacleFinderParams(Parameters):
 def find_obstacles(
     points: Vector, viewpoint: Vector, params: ObstacleFinderParams
 ) -> ObstacleMap:
-    """The obstacles in a cloud.
+    """Finds the obstacles in a cloud.
 
     The floor is the densest level below the sensor. What stands out of it, point by
     point or where it is low on the mean of a patch, is grouped; each group's top is its
@@ -86,7 +86,7 @@ def find_obstacles(
 
 
 def floor_height(z: Vector, window: float) -> float:
-    """The densest level of heights, (n,), m: the mean of its points."""
+    """Computes the densest level of heights, (n,), m: the mean of its points."""
     z = np.sort(z)
     first = np.searchsorted(z, z - window, side="left")
     last = np.searchsorted(z, z + window, side="right")
@@ -97,7 +97,7 @@ def floor_height(z: Vector, window: float) -> float:
 def low_patches(
     points: Vector, height: Vector, params: ObstacleFinderParams
 ) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-    """Which points lie where the floor is raised by less than single points can tell.
+    """Selects points where the floor is raised by less than single points can tell.
 
     Args:
         points: (n, 3), m.
@@ -135,7 +135,7 @@ def low_patches(
 def fit_obstacle(
     points: Vector, floor: float, viewpoint: Vector, params: ObstacleFinderParams
 ) -> Obstacle:
-    """The rectangle and the height of one group of points.
+    """Fits rectangle and height to one group of points.
 
     Args:
         points: at least three, in W, (n, 3), m.
@@ -181,7 +181,7 @@ def fit_obstacle(
 def _front_face(
     face: Vector, viewpoint: Vector, params: ObstacleFinderParams
 ) -> tuple[float, float] | None:
-    """Direction across the face that was seen, away from the sensor, and where it is.
+    """Finds the direction across the face seen, away from the sensor, and its place.
 
     Args:
         face: points below the top, (n, 2), m.

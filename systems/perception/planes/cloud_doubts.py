@@ -20,7 +20,7 @@ MIN_SURFACE = 0.2
 
 
 def describe_cloud(points: Vector) -> str:
-    """Say in a line how many points a cloud has, how far it extends, how dense it is.
+    """Says in a line how many points a cloud has, how far it extends, how dense it is.
 
     Args:
         points: finite, (n, 3), at least one, m.
@@ -36,7 +36,7 @@ def describe_cloud(points: Vector) -> str:
 
 
 def point_spacing(points: Vector) -> float:
-    """Median distance of a point to the nearest other one, m; 0 of a lone point.
+    """Measures the median distance of points to their nearest neighbours, m.
 
     Args:
         points: finite, (n, 3), m.
@@ -51,7 +51,7 @@ def point_spacing(points: Vector) -> float:
 def doubt_cloud(
     points: Vector, gravity: Vector, params: PlaneSegmenterParams, sole_voxels: int
 ) -> tuple[str, ...]:
-    """Say what is likely wrong with a cloud in which no plane was found.
+    """Says what is likely wrong with a cloud in which no plane was found.
 
     Args:
         points: finite, (n, 3), at least one, m.

@@ -11,7 +11,7 @@ from footfall.models.values.vector import Vector
 
 
 def gravity_direction(gravity: Vector) -> Vector:
-    """Unit vector g along gravity, (3,): it points down, as in the paper.
+    """Computes the unit vector g along gravity, (3,): it points down, as in the paper.
 
     Args:
         gravity: gravity as an accelerometer would give it, (3,), any length.
@@ -27,7 +27,7 @@ def gravity_direction(gravity: Vector) -> Vector:
 
 
 def gravity_aligned_rotation(gravity: Vector) -> Vector:
-    """Smallest rotation R_GW, (3, 3), into a frame G whose z points up.
+    """Computes the smallest rotation R_GW, (3, 3), into a frame G whose z points up.
 
     Args:
         gravity: gravity in W, (3,), any length.
@@ -43,7 +43,7 @@ def gravity_aligned_rotation(gravity: Vector) -> Vector:
 
 
 def estimate_normals(points: Vector, neighbors: int, threads: int) -> Vector:
-    """Unit normals from the covariance of each point's k nearest neighbours.
+    """Estimates unit normals from the covariance of the k nearest neighbours.
 
     Args:
         points: (n, 3), m.
@@ -63,7 +63,7 @@ def estimate_normals(points: Vector, neighbors: int, threads: int) -> Vector:
 def orient_normals(
     points: Vector, normals: Vector, g: Vector, viewpoint: Vector | None
 ) -> Vector:
-    """Normals turned towards the viewpoint; upwards where there is none.
+    """Turns normals towards the viewpoint; upwards where there is none.
 
     Only with a viewpoint can a ceiling be told from a floor.
 
@@ -84,14 +84,14 @@ def orient_normals(
 
 
 def normal_distance(a: Vector, b: Vector) -> Vector:
-    """D_n of Eq. 2, 1 - a . b, of unit vectors (..., 3); in [0, 2]."""
+    """Computes Eq. 2, D_n = 1 - n_a . n_b, of unit vectors (..., 3); in [0, 2]."""
     return np.asarray(1.0 - np.sum(a * b, axis=-1), dtype=np.float64)
 
 
 def filter_slopes(
     normals: Vector, g: Vector, slope_tolerance: float
 ) -> NDArray[np.bool]:
-    """Filter 1: which normals are within `slope_tolerance` of upright.
+    """Keeps the points with D_n(n, g) >= T (Filter 1), T = 1 + cos(slope_tolerance).
 
     D_n(n, g) is 2 for an upright normal, g pointing down, and points below the
     threshold T = 1 + cos(slope_tolerance) are deleted.

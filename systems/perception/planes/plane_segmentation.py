@@ -57,7 +57,7 @@ DOWN = np.array([0.0, 0.0, -1.0])
 
 @dataclass(frozen=True, eq=False)
 class LevelVoxels:
-    """What Filters 1 and 2 leave: C of Algorithm 1, and where it came from."""
+    """Voxels that Filters 1 and 2 leave: C of Algorithm 1."""
 
     points: Vector
     """Representative points, (m, 3), m."""
@@ -88,7 +88,7 @@ class Stages:
     clusters: NDArray[np.int64]
     """Cluster of each voxel after Filter 3; -1 for none."""
     planes: tuple[FittedPlane, ...]
-    """What RANSAC found."""
+    """Planes that RANSAC found."""
     patches: tuple[Patch, ...]
     """The planes, bounded."""
 
@@ -96,7 +96,7 @@ class Stages:
 def filter_level(
     cloud: Vector, params: PlaneSegmenterParams, viewpoint: Vector | None
 ) -> LevelVoxels:
-    """Algorithm 1: normals, Filter 1, voxels, Filter 2.
+    """Runs Algorithm 1, lines 1 to 12: normals, Filter 1, voxels, Filter 2.
 
     Args:
         cloud: finite points in G, (n, 3), m.
@@ -143,7 +143,7 @@ def filter_level(
 def cluster_level(
     voxels: LevelVoxels, params: PlaneSegmenterParams, sole: Sole
 ) -> tuple[Supervoxels, NDArray[np.int64]]:
-    """Supervoxels, their clusters, and Filter 3.
+    """Grows supervoxels, clusters them and applies Filter 3.
 
     Returns:
         The supervoxels and the cluster of each voxel, (m,); -1 for none.
@@ -170,7 +170,7 @@ def fit_planes(
     params: PlaneSegmenterParams,
     sole: Sole,
 ) -> tuple[FittedPlane, ...]:
-    """RANSAC planes within the slope tolerance, larger than a sole."""
+    """Fits RANSAC planes within the slope tolerance, larger than a sole."""
     of = clusters if params.planes_from == "clusters" else np.minimum(clusters, 0)
     planes = ransac_planes(
         voxels.points,
@@ -218,7 +218,7 @@ def find_treads(
     params: PlaneSegmenterParams,
     viewpoint: Vector | None,
 ) -> tuple[list[int], float, list[Tread], int | None]:
-    """The staircase among the patches.
+    """Finds the staircase among the patches.
 
     Returns:
         Indices of the treads' patches, lowest first; the staircase's yaw, rad; the
@@ -260,7 +260,7 @@ def segment_planes(
     sole: Sole,
     viewpoint: Vector | None = None,
 ) -> tuple[PlaneSegmentation, Stages]:
-    """Plane segments of a cloud, and the staircase among them.
+    """Segments a cloud into planes and finds the staircase among them.
 
     Args:
         points: the cloud, (n, 3), m, in any frame W; points that are not finite are

@@ -30,7 +30,8 @@ class PlaneSegmenter(LeafSystem):
         - segmentation
 
     - `cloud`: pydrake PointCloud in W, m; points that are not finite are left out.
-    - `gravity`: gravity in W, (3,), any length: it points down.
+    - `gravity`: gravity in W, (3,), any length: it points down. The paper takes it from
+      the acceleration sensor; our closed loop gives a constant.
     - `viewpoint`: p_WSensor, (3,), m, where the cloud was seen from; need not be
       connected, but then normals are turned up, so that a ceiling is a plane too.
     - `segmentation`: PlaneSegmentation in W; empty where the cloud is.

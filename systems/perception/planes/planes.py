@@ -53,7 +53,7 @@ class Patch:
 
 
 def fit_plane(points: Vector) -> tuple[Vector, Vector]:
-    """Mean and upward unit normal of the least-squares plane of (n, 3) points."""
+    """Fits the least-squares plane of (n, 3) points: mean and upward unit normal."""
     mean = points.mean(axis=0)
     offset = points - mean
     normal = np.linalg.eigh(offset.T @ offset)[1][:, 0]
@@ -68,7 +68,7 @@ def ransac_planes(
     min_inliers: int,
     rng: np.random.Generator,
 ) -> tuple[FittedPlane, ...]:
-    """Planes of each cluster, the best supported first, until too few points are left.
+    """Fits planes to each cluster, the best supported first, until points run out.
 
     Args:
         points: representative points of voxels, (m, 3), m.
@@ -208,7 +208,7 @@ def make_patches(
 
 
 def bound_patch(plane: FittedPlane, support: Vector, area: float) -> Patch | None:
-    """Outline and least rectangle of a plane's points; None where they are in a line.
+    """Bounds a plane's points by hull and rectangle; None where they are in a line.
 
     Args:
         plane: the plane.
@@ -244,7 +244,7 @@ def bound_patch(plane: FittedPlane, support: Vector, area: float) -> Patch | Non
 
 
 def plane_axes(normal: Vector, toward: Vector) -> Vector:
-    """Rotation, (3, 3), with z along the normal and x as near to `toward` as can be."""
+    """Computes R, (3, 3), with z along the normal and x as near `toward` as can be."""
     x = toward - normal * (normal @ toward)
     if np.linalg.norm(x) < 1e-9:
         x = np.cross(normal, [0.0, 1.0, 0.0])
@@ -253,7 +253,7 @@ def plane_axes(normal: Vector, toward: Vector) -> Vector:
 
 
 def min_rectangle(corners: Vector) -> tuple[float, Vector, Vector]:
-    """The least-area rectangle around a convex polygon, (h, 2), m.
+    """Computes the least-area rectangle around a convex polygon, (h, 2), m.
 
     Returns:
         Angle of its x axis (along its short side), rad, and its low and high corners

@@ -34,9 +34,10 @@ class PlaneSegmenterParams(Parameters):
     neighbors: int = number(10, least=5, most=1000)
     """k of the normals: the paper's compromise of area and time (Sec. 5)."""
     order: str = choice("voxels_first", ("voxels_first", "normals_first"))
-    """"normals_first" takes normals of the points, then voxels, as in Algorithm 1;
-    "voxels_first" takes normals of the voxels' means, which range noise of 5 mm and
-    more bends much less."""
+    """"normals_first" takes normals of the points, then Filter 1, voxels and Filter 2,
+    as in Algorithm 1; "voxels_first" departs from it: normals are those of the voxels'
+    means, which range noise of 5 mm and more bends much less, and Filter 2 counts
+    neighbours before Filter 1 has taken any."""
     planes_from: str = choice("clusters", ("clusters", "all"))
     """"all": RANSAC over all supervoxels at once, as in the paper; "clusters": over
     each cluster, so that no plane joins separate things."""
@@ -44,9 +45,11 @@ class PlaneSegmenterParams(Parameters):
     """"size_cluster": the largest cluster of segments of like size, as in the paper;
     "chain": the longest flight of segments of a tread's size."""
     merge_angle: float = number(0.14, "rad", above=0.0)
-    """Most that the normals of adjacent supervoxels of one cluster differ, rad."""
+    """Most that the normals of adjacent supervoxels of one cluster differ, rad; ours,
+    since the paper (Sec. 4.2) gives no thresholds."""
     merge_offset: float = number(0.015, "m", above=0.0)
-    """Most that an adjacent supervoxel lies off the plane, m: three times the noise."""
+    """Most that an adjacent supervoxel lies off the plane, m: three times the noise;
+    ours as well."""
     plane_tolerance: float = number(0.015, "m", above=0.0)
     """Most that an inlier of RANSAC lies off its plane, m: three times the noise."""
     max_dz: float = number(0.03, "m", above=0.0)
@@ -72,5 +75,5 @@ class PlaneSegmenterParams(Parameters):
             )
 
     def min_voxels(self, sole: Sole) -> int:
-        """Voxels that a sole covers."""
+        """Computes the number of voxels that a sole covers."""
         return int(np.ceil(sole.area / self.voxel_size**2))

@@ -1,4 +1,4 @@
-"""From patches and treads in the frame G to plane segments in the cloud's frame W."""
+"""Conversion of patches and treads in the frame G to plane segments in W."""
 
 import numpy as np
 from pydrake.math import RigidTransform, RotationMatrix
@@ -11,7 +11,7 @@ from footfall.systems.perception.planes.treads import Tread, stair_rotation
 
 
 def patch_segment(patch: Patch, R_GW: Vector, yaw: float | None = None) -> PlaneSegment:
-    """A patch in W.
+    """Converts a patch in G to a plane segment in W.
 
     Args:
         patch: the patch, in G.
@@ -32,7 +32,7 @@ def patch_segment(patch: Patch, R_GW: Vector, yaw: float | None = None) -> Plane
 
 
 def tread_segment(tread: Tread, yaw: float, area: float, R_GW: Vector) -> PlaneSegment:
-    """A tread in W.
+    """Converts a tread in G to a plane segment in W.
 
     Args:
         tread: the tread, in its staircase's frame S.

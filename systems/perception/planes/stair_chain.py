@@ -1,4 +1,4 @@
-"""Which of the planes are the treads of a staircase.
+"""Selection of the planes that are the treads of a staircase.
 
 Two ways: the paper's (Sec. 4.3: the largest cluster of planes of like size) and, the
 default, the longest chain of planes of a tread's size that rise from one to the next.
@@ -30,7 +30,7 @@ LEVEL_SLOPE = 0.09
 
 @dataclass(kw_only=True)
 class StairLimits(Parameters):
-    """What passes for a staircase."""
+    """Limits of what passes for a staircase."""
 
     min_depth: float = number(0.10, "m", above=0.0)
     """Least depth of a tread, m: less than any sole needs, so that a tread that is
@@ -73,7 +73,7 @@ class StairLimits(Parameters):
 
 
 def largest_size_cluster(extents: Vector, tolerance: float) -> list[int]:
-    """The paper's rule: the largest cluster of segments in the (dx, dy) plane.
+    """Finds the largest cluster of segments in the (dx, dy) plane: the paper's rule.
 
     Args:
         extents: (dx, dy, dz) of each segment, (n, 3), m.
@@ -144,7 +144,7 @@ def _may_be_parts(a: Patch, b: Patch, limits: StairLimits) -> bool:
 
 
 def _join(a: Patch, b: Patch, limits: StairLimits) -> Patch | None:
-    """The patch of both parts' points; None where that is no tread."""
+    """Merges both parts' points to a patch; None where that is no tread."""
     points = np.concatenate([a.points, b.points])
     point, normal = fit_plane(points)
     if np.percentile(np.abs((points - point) @ normal), 95.0) > PART_OFFSET:
@@ -161,7 +161,7 @@ def _join(a: Patch, b: Patch, limits: StairLimits) -> Patch | None:
 def tread_candidates(
     patches: tuple[Patch, ...], limits: StairLimits, max_dz: float
 ) -> list[int]:
-    """Indices of the level patches with the size of a tread, lowest first."""
+    """Selects the level patches with the size of a tread, lowest first."""
     chosen = [
         number
         for number, patch in enumerate(patches)
@@ -175,7 +175,7 @@ def tread_candidates(
 def longest_chain(
     patches: tuple[Patch, ...], candidates: list[int], limits: StairLimits
 ) -> list[int]:
-    """The longest flight: each tread a rise above and a run behind the one before.
+    """Finds the longest flight: each tread a rise above and a run behind the last.
 
     Args:
         patches: all patches.
@@ -209,7 +209,7 @@ def longest_chain(
 
 
 def _follows(lower: Patch, upper: Patch, limits: StairLimits) -> bool:
-    """Whether `upper` may be the next tread after `lower`."""
+    """Tests whether `upper` may be the next tread after `lower`."""
     step = upper.center - lower.center
     rise = float(step[2])
     if not limits.min_rise <= rise <= limits.max_rise:
@@ -231,7 +231,7 @@ def _follows(lower: Patch, upper: Patch, limits: StairLimits) -> bool:
 def floor_below(
     patches: tuple[Patch, ...], treads: list[int], limits: StairLimits
 ) -> int | None:
-    """The plane that the staircase rises from: the largest within a rise below it.
+    """Finds the plane the staircase rises from: the largest within a rise below it.
 
     A robot on the stairs may see none there; then the largest of all lower planes.
     """

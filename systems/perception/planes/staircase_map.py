@@ -1,7 +1,6 @@
-"""What is known of a staircase, scan after scan."""
+"""Map of a staircase, merged scan after scan."""
 
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 import numpy as np
 from pydrake.common.value import AbstractValue
@@ -15,6 +14,7 @@ from pydrake.systems.framework import (
 
 from footfall.models.values.perceived import PlaneSegmentation, Staircase
 from footfall.models.values.validation import require_at_least
+from footfall.systems.held_value import HeldValue
 from footfall.systems.perception.planes.staircase_merging import (
     StaircaseMapParams,
     merge_staircase,
@@ -82,8 +82,8 @@ class StaircaseMap(LeafSystem):
             "segmentation", AbstractValue.Make(PlaneSegmentation())
         )
         self._sweep = self.DeclareVectorInputPort("sweep", 1)
-        self._state = self.DeclareAbstractState(AbstractValue.Make(_Merged()))
-        ticket = {self.abstract_state_ticket(self._state)}
+        self._state = HeldValue(self, _Merged())
+        ticket = {self._state.ticket}
         self.DeclareAbstractOutputPort(
             "staircase",
             lambda: AbstractValue.Make(Staircase()),
@@ -109,7 +109,7 @@ class StaircaseMap(LeafSystem):
         )
 
     def _merge(self, context: Context, state: State) -> EventStatus:
-        was, time = self._get(context), context.get_time()
+        was, time = self._state.get(context), context.get_time()
         now = was.at(time)
         sweeps = int(eval_vector(self._sweep, context)[0])
         if now.coming is None and sweeps > now.sweeps:
@@ -120,20 +120,14 @@ class StaircaseMap(LeafSystem):
             now = now.until(ready, _Merged(known, seen, sweeps)).at(time)
         if now is was:
             return EventStatus.DidNothing()
-        state.get_mutable_abstract_state(int(self._state)).set_value(now)
+        self._state.set(state, now)
         return EventStatus.Succeeded()
 
-    def _get(self, context: Context) -> _Merged:
-        held: Any = context.get_abstract_state(int(self._state))
-        merged = held.get_value()
-        assert isinstance(merged, _Merged)
-        return merged
-
     def _calc_segmentation(self, context: Context, output: AbstractValue) -> None:
-        output.set_value(self._get(context).segmentation)
+        output.set_value(self._state.get(context).segmentation)
 
     def _calc_staircase(self, context: Context, staircase: AbstractValue) -> None:
-        staircase.set_value(self._get(context).staircase)
+        staircase.set_value(self._state.get(context).staircase)
 
     def _calc_sweep(self, context: Context, sweep: BasicVector) -> None:
-        set_vector(sweep, np.array([self._get(context).sweeps], dtype=np.float64))
+        set_vector(sweep, np.array([self._state.get(context).sweeps], dtype=np.float64))

@@ -40,7 +40,7 @@ class StaircaseMapParams(Parameters):
 def merge_staircase(
     known: Staircase, seen: PlaneSegmentation, params: StaircaseMapParams
 ) -> Staircase:
-    """The known staircase with what a new scan adds to it.
+    """Merges a new scan's planes into the known staircase.
 
     A tread that was seen again is averaged, weighted by support; a view in which part
     of it is hidden does not shrink it. Treads that were not seen stay. New ones are
@@ -79,7 +79,7 @@ def merge_staircase(
 
 
 def _height(plane: PlaneSegment) -> float:
-    """Height of the rectangle's centre, m."""
+    """Returns the height of the rectangle's centre, m."""
     p_WR: Vector = plane.X_WR.translation()
     return float(p_WR[2])
 
@@ -87,7 +87,7 @@ def _height(plane: PlaneSegment) -> float:
 def _match(
     treads: list[PlaneSegment], seen: PlaneSegment, params: StaircaseMapParams
 ) -> int | None:
-    """Index of the known tread that `seen` is a view of."""
+    """Finds the index of the known tread that `seen` is a view of."""
     best, match = params.min_overlap, None
     for index, tread in enumerate(treads):
         if abs(_height_over(tread, seen)) > params.height_tolerance:
@@ -99,7 +99,7 @@ def _match(
 
 
 def _height_over(tread: PlaneSegment, seen: PlaneSegment) -> float:
-    """How far `tread`'s centre lies above the plane of `seen`, m."""
+    """Computes the height of `tread`'s centre over the plane of `seen`, m."""
     p_WTread: Vector = tread.X_WR.translation()
     p_WSeen: Vector = seen.X_WR.translation()
     offset = p_WTread - p_WSeen
@@ -107,7 +107,7 @@ def _height_over(tread: PlaneSegment, seen: PlaneSegment) -> float:
 
 
 def _bounds(tread: PlaneSegment, seen: PlaneSegment) -> tuple[Vector, Vector]:
-    """Low and high corner of the rectangle of `seen`, in R of `tread`, (2,), m."""
+    """Computes low and high corner of the rectangle of `seen`, in R of `tread`, m."""
     p_R = np.array(tread.X_WR.inverse().multiply(seen.corners().T)).T[:, :2]
     # Means over either side: a small turn between the two does not widen it.
     order_x, order_y = np.sort(p_R[:, 0]), np.sort(p_R[:, 1])
@@ -117,7 +117,7 @@ def _bounds(tread: PlaneSegment, seen: PlaneSegment) -> tuple[Vector, Vector]:
 
 
 def _overlap(tread: PlaneSegment, seen: PlaneSegment) -> float:
-    """Overlap of the rectangles, as part of the smaller one."""
+    """Computes the overlap of the rectangles, as part of the smaller one."""
     low, high = _bounds(tread, seen)
     half = tread.size / 2.0
     common = np.clip(np.minimum(high, half) - np.maximum(low, -half), 0.0, None)
@@ -126,7 +126,7 @@ def _overlap(tread: PlaneSegment, seen: PlaneSegment) -> float:
 
 
 def _turn(tread: PlaneSegment, seen: PlaneSegment) -> float:
-    """Angle between the directions up the stairs, rad."""
+    """Computes the angle between the directions up the stairs, rad."""
     a: Vector = tread.X_WR.rotation().matrix()[:, 0]
     b: Vector = seen.X_WR.rotation().matrix()[:, 0]
     return float(np.arccos(np.clip(a @ b, -1.0, 1.0)))
@@ -164,14 +164,14 @@ def _merge_treads(
 
 
 def _outer(known: Vector, seen: Vector, share: float, tolerance: float) -> Vector:
-    """Edges measured outwards: averaged where they agree, else the outer one."""
+    """Merges edges measured outwards: averaged where they agree, else the outer one."""
     mean = (1.0 - share) * known + share * seen
     agree = np.abs(known - seen) <= tolerance
     return np.where(agree, mean, np.maximum(known, seen))
 
 
 def _confirm(known: PlaneSegment, seen: PlaneSegment) -> PlaneSegment:
-    """The known tread at a height averaged with that of a plane that lies on it."""
+    """Averages the known tread's height with that of a plane that lies on it."""
     share = seen.support_count / max(seen.support_count + known.support_count, 1)
     lift = np.array([0.0, 0.0, -share * _height_over(known, seen)])
     p_WR: Vector = known.X_WR.translation()
@@ -186,7 +186,7 @@ def _confirm(known: PlaneSegment, seen: PlaneSegment) -> PlaneSegment:
 def _continues(
     treads: list[PlaneSegment], seen: PlaneSegment, params: StaircaseMapParams
 ) -> bool:
-    """Whether `seen` is on the flight: the higher, the farther, in line, no landing."""
+    """Tests whether `seen` continues the flight: higher, farther, in line."""
     deepest = max(float(tread.size[0]) for tread in treads)
     if seen.size[0] > (1.0 + params.depth_tolerance) * deepest:
         return False

@@ -59,7 +59,7 @@ def supervoxel_distance(
 def choose_seeds(
     points: Vector, seed_resolution: float, candidates: NDArray[np.int64]
 ) -> NDArray[np.int64]:
-    """One seed a cell of the coarse octree O_s: the voxel nearest to its middle.
+    """Chooses a seed a cell of the coarse octree O_s: the voxel nearest its middle.
 
     Args:
         points: representative points, (m, 3), m.
@@ -143,7 +143,7 @@ def _expand(
     seed_resolution: float,
     influence: float,
 ) -> None:
-    """Expands the supervoxels in `labels` until no voxel within reach is left."""
+    """Grows the supervoxels in `labels` until no voxel within reach is left."""
     while True:
         free = labels[target] < 0
         source, target = source[free], target[free]
@@ -212,7 +212,7 @@ def merge_supervoxels(
 def filter_small(
     clusters: NDArray[np.int64], voxel_size: float, min_area: float
 ) -> NDArray[np.int64]:
-    """Filter 3: drops the clusters that are smaller than a foot.
+    """Drops the clusters that are smaller than a foot (Filter 3).
 
     Args:
         clusters: cluster of each voxel, (m,); -1 for none.

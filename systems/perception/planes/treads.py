@@ -55,7 +55,7 @@ class Tread:
 
 
 def stair_rotation(yaw: float) -> Vector:
-    """R_GS of a staircase whose x is turned by `yaw` about G's z, (3, 3)."""
+    """Computes R_GS of a staircase whose x is turned by `yaw` about G's z, (3, 3)."""
     c, s = np.cos(yaw), np.sin(yaw)
     return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 
@@ -63,7 +63,7 @@ def stair_rotation(yaw: float) -> Vector:
 def initial_yaw(
     patches: list[Patch], points: Vector, viewpoint: Vector | None
 ) -> float:
-    """Direction up the stairs from the patches' axes, rad.
+    """Estimates the direction up the stairs from the patches' axes, rad.
 
     Args:
         patches: the treads, lowest first.
@@ -100,7 +100,7 @@ def _away_from_face(patch: Patch, points: Vector) -> Vector:
 def refine_treads(
     patches: list[Patch], cloud: Vector, viewpoint: Vector | None
 ) -> tuple[float, list[Tread]]:
-    """Rectangles of a flight of treads.
+    """Fits the rectangles of a flight of treads.
 
     Args:
         patches: the treads, lowest first, at least one.
@@ -130,7 +130,7 @@ def refine_treads(
 
 
 def _is_seen_past(tread: Tread, cloud: Vector, eye: Vector) -> bool:
-    """Whether the view goes on over a tread's back edge, so that it is its own.
+    """Tests whether the view goes on over a tread's back edge, so that it is its own.
 
     Args:
         tread: the tread.
@@ -158,7 +158,7 @@ def _near(patches: list[Patch], cloud: Vector) -> Vector:
 
 
 def _bound(patch: Patch, local: Vector, rotation: Vector) -> Tread:
-    """The rectangle of a tread from the cloud in S, (n, 3)."""
+    """Fits the rectangle of a tread to the cloud in S, (n, 3)."""
     core = patch.points @ rotation
     point, normal = patch.plane.point @ rotation, patch.plane.normal @ rotation
     off = (local - point) @ normal
@@ -195,7 +195,7 @@ def _bound(patch: Patch, local: Vector, rotation: Vector) -> Tread:
 
 
 def _hanging_together(slab: Vector, core: Vector) -> Vector:
-    """The points of a slab that are the core's tread, in plan view.
+    """Selects the points of a slab connected to the tread's core, in plan view.
 
     These are the pieces that hang together with the core, which may be in several where
     something hides the rest, and pieces beside it, behind the shadow of a leg, that
@@ -229,7 +229,7 @@ def _hanging_together(slab: Vector, core: Vector) -> Vector:
 
 
 def _strip_end(across: Vector, along: Vector) -> float:
-    """Where points end: the upper third of the ends of the strips across, m.
+    """Finds where points end: the upper third of the ends of strips across, m.
 
     Strips that something hides end early, so that the median would be drawn in.
     """
@@ -242,7 +242,7 @@ def _strip_end(across: Vector, along: Vector) -> float:
 
 
 def _face(x: Vector, edge: float) -> tuple[float, bool]:
-    """Where a vertical face near an edge stands, and whether there is one."""
+    """Finds a vertical face near an edge, and its place."""
     for reach in (0.05, 0.02):
         x = x[np.abs(x - edge) < reach]
         if len(x) < MIN_FACE_POINTS:
@@ -252,7 +252,7 @@ def _face(x: Vector, edge: float) -> tuple[float, bool]:
 
 
 def _common_slope(treads: list[Tread], local: Vector) -> float:
-    """dx/dy of all front faces together, by trimmed least squares."""
+    """Fits dx/dy of all front faces together, by trimmed least squares."""
     total, weight = 0.0, 0.0
     for tread in treads:
         low, high = tread.low, tread.high
@@ -282,7 +282,7 @@ def _common_slope(treads: list[Tread], local: Vector) -> float:
 
 
 def _front_line(tread: Tread) -> tuple[Vector, Vector]:
-    """First points of a tread in strips along x."""
+    """Finds the first points of a tread in strips along x."""
     x, y = tread.points[:, 0], tread.points[:, 1]
     strip = np.floor(y / BIN).astype(np.int64)
     strip -= strip.min()

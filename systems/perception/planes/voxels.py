@@ -23,7 +23,7 @@ class VoxelGrid:
     keys: NDArray[np.int64]
     """Scalar keys, (m,), ascending; neighbours along z have neighbouring keys."""
     strides: tuple[int, int]
-    """How far the key moves with the first and the second coordinate."""
+    """Strides of the key in the first and the second coordinate."""
     mean: Vector
     """Mean of each voxel's points, (m, 3), m."""
     representative: NDArray[np.int64]
@@ -35,7 +35,7 @@ class VoxelGrid:
 
 
 def usable_points(points: Vector) -> Vector:
-    """The points, (n, 3), that are finite and nearer to the origin than 10 km."""
+    """Selects the points, (n, 3), that are finite and within 10 km of the origin."""
     with np.errstate(invalid="ignore"):
         good = np.all(np.abs(points) < FARTHEST, axis=1)
     return points[good]
@@ -83,7 +83,7 @@ def voxelize(points: Vector, size: float) -> VoxelGrid:
 
 
 def adjacent_voxels(grid: VoxelGrid) -> NDArray[np.int64]:
-    """Pairs of occupied voxels that touch by a face, an edge or a corner.
+    """Finds pairs of occupied voxels that touch by a face, an edge or a corner.
 
     Returns:
         (p, 2), each pair once.
@@ -107,7 +107,7 @@ def adjacent_voxels(grid: VoxelGrid) -> NDArray[np.int64]:
 def filter_sparse(
     pairs: NDArray[np.int64], voxel_count: int, min_neighbors: int
 ) -> NDArray[np.bool]:
-    """Filter 2: which voxels have more than n_t occupied neighbours.
+    """Keeps the voxels with more than n_t occupied neighbours (Filter 2).
 
     The paper's text speaks of points in a voxel, its Algorithm 1 (line 12) of the
     "adjacency size"; the latter is what a single sweep can satisfy.
@@ -125,7 +125,7 @@ def filter_sparse(
 
 
 def keep_pairs(pairs: NDArray[np.int64], kept: NDArray[np.bool]) -> NDArray[np.int64]:
-    """The pairs among the voxels that are kept, renumbered, (q, 2)."""
+    """Keeps the pairs among the voxels that are kept, renumbered, (q, 2)."""
     number = np.cumsum(kept) - 1
     inside = kept[pairs[:, 0]] & kept[pairs[:, 1]]
     return np.asarray(number[pairs[inside]])

@@ -47,7 +47,7 @@ from footfall.models.values.vector import Vector
 
 AXES = ("x", "y", "z")
 UNIT_TOLERANCE = 1e-6
-"""How far from 1 the length of a normal may be."""
+"""Tolerance of the length of a unit normal."""
 
 
 class EnvironmentFileError(ValueError):
@@ -55,7 +55,7 @@ class EnvironmentFileError(ValueError):
 
 
 def write_environment(environment: Environment) -> str:
-    """The environment as an XML document.
+    """Writes the environment as an XML document.
 
     Raises:
         ValueError: a number is not finite or a text is not printable, so that it could
@@ -194,7 +194,7 @@ class _Element:
 
 
 def _parse(document: str | bytes, source: str) -> _Element:
-    """The document's outermost element."""
+    """Parses the document's outermost element."""
     parser = expat.ParserCreate()
     top: list[_Element] = []
     path: list[_Element] = []

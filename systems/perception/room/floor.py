@@ -42,7 +42,7 @@ class FloorParams(Parameters):
     how many planes are tried at least. It is no condition, since a room full of boxes,
     or with its walls in view, has a floor too; the share found is reported."""
     min_share: float = number(0.2, above=0.0, below=1.0)
-    """A plane with less is no floor."""
+    """A plane with a smaller share is no floor; the paper names no such bound."""
     max_share_below: float = number(0.05, least=0.0, most=1.0)
     """A plane with more points than this below it supports nothing: a table's top."""
     confidence: float = number(0.999, above=0.0, below=1.0)
@@ -114,7 +114,7 @@ def extract_floor(
 def _ransac(
     points: Vector, viewpoint: Vector, params: FloorParams
 ) -> tuple[Vector | None, float]:
-    """The level plane with the most inliers, and their share of the points.
+    """Finds the level plane with the most inliers, and their share of the points.
 
     The three points of a hypothesis are picked among those whose normal, turned to the
     viewpoint, is near the vertical. Tries go on until with the best share so far one
@@ -146,12 +146,12 @@ def _ransac(
 
 
 def _tries(share: float, params: FloorParams) -> int:
-    """How many triples hold one of inliers alone with the confidence asked for."""
+    """Computes how many triples hold one of inliers alone with the confidence asked."""
     return math.ceil(math.log(1.0 - params.confidence) / math.log1p(-(share**3)))
 
 
 def _planes(triple: Vector, max_tilt: float) -> Vector:
-    """Planes through triples of points, (n, 3, 3), that are nearly level, (m, 4)."""
+    """Computes planes through triples of points, (n, 3, 3), nearly level, (m, 4)."""
     normals = np.cross(triple[:, 1] - triple[:, 0], triple[:, 2] - triple[:, 0])
     length = np.linalg.norm(normals, axis=1)
     steep = np.abs(normals[:, 2]) <= math.cos(max_tilt) * np.maximum(length, 1e-9)
@@ -169,13 +169,13 @@ def _offset(points: Vector, coefficients: Vector) -> Vector:
 
 
 def _tolerance(points: Vector, viewpoint: Vector, params: FloorParams) -> Vector:
-    """How far off a level plane each point may lie, (n,), m."""
+    """Computes the largest distance of inliers from a level plane, (n,), m."""
     deviation = params.noise.height_deviation(points, viewpoint)
     return np.maximum(params.deviations * deviation, params.min_tolerance)
 
 
 def _outline(inliers: Vector, viewpoint: Vector, coefficients: Vector) -> Vector | None:
-    """Convex outline of the floor that was seen, (n, 3); None for points in a line."""
+    """Computes the convex outline of the floor seen, (n, 3); None for a line."""
     on_plane = slide_to_plane(inliers, viewpoint, coefficients)
     try:
         hull = ConvexHull(on_plane[:, :2])

@@ -53,7 +53,8 @@ class FeasibilityParams(Parameters):
     max_step_length: float = number(0.56, "m", above=0.0, most=10.0)
     """Longest step, m: beyond it the swing asks more speed and torque than there is."""
     lowest_waist: float = number(0.62, "m", above=0.0)
-    """Lowest waist, m: below it the knees ask for more torque than there is."""
+    """Lowest waist, m: below it the knees ask for more torque than there is. By default
+    the robot's `lowest_waist`."""
     joint_margin: float = number(0.05, "rad", least=0.0)
     """Kept from the joint limits, rad, as the motion about the key configuration and
     its tracking need some."""

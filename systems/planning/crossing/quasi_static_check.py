@@ -28,17 +28,13 @@ from footfall.systems.tracking.whole_body_feedforward import (
     needed_forces,
 )
 
-TYPICAL_STEP = 0.42
-"""Step length over an obstacle at which waist and CoM are compared, m: from 0.38 to
-0.48 m the offset between them changes by less than a centimetre."""
-TYPICAL_WAIST = 0.76
-"""Height of the waist there, m."""
-
 
 def balance_of(
     body: WholeBody, context: Context, quasi: QuasiStaticCrossingParams
 ) -> Balance:
     """What the line model of `quasi_static_unit` needs to know of the whole body.
+
+    Waist and CoM are compared in the robot's `crossing_stance`.
 
     Args:
         body: the robot.
@@ -48,19 +44,20 @@ def balance_of(
     feet: Vector = np.zeros((2, 2, 6))
     for i, foot in enumerate(FEET):
         feet[:, i, 1] = body.leg.hips[foot][1]
-    feet[:, 1, 0] = TYPICAL_STEP
-    com = np.array([[quasi.com_begin, 0.0], [TYPICAL_STEP + quasi.com_end, 0.0]])
+    step, waist = body.robot.crossing_stance
+    feet[:, 1, 0] = step
+    com = np.array([[quasi.com_begin, 0.0], [step + quasi.com_end, 0.0]])
     rpy = np.array([[0.0, 0.0, 0.0], [0.0, quasi.lean, 0.0]])
     found = body_motion(
         body,
         com,
-        np.full(2, TYPICAL_WAIST),
+        np.full(2, waist),
         rpy,
         feet,
         np.array([0.0, -quasi.arms]),
         rounds=6,
     )
-    knee = body.robot.leg_joints["left"][3]
+    knee = body.robot.knee_joints["left"]
     begin, end = found.waist[:, 0] - found.com[:, 0]
     return Balance(
         float(begin),

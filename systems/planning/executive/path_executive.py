@@ -38,7 +38,8 @@ class PathExecutiveParams(Parameters):
     """Between looks at the room while walking, s."""
     body_radius: float = number(0.22, "m", least=0.0)
     """What the walking body takes around each sole, m: a box that comes nearer blocks
-    the step. Less than what paths keep, so that the noise of a box's edge does not."""
+    the step. Less than what paths keep, so that the noise of a box's edge does not. By
+    default the robot's `body_radius`."""
     max_plans: int = number(20, least=1)
     """After this many plans the task is given up."""
 

@@ -13,7 +13,7 @@ class FootstepPlannerParams(Parameters):
 
     stance_width: float = number(0.19, "m", above=0.0)
     """Between the two sole frames when standing side by side, m: near the hip spacing,
-    so that the legs are upright."""
+    so that the legs are upright; by default the robot's `stance_width`."""
     max_stance_width: float = number(0.28, "m", above=0.0)
     """Widest lateral distance between the sole frames in a step, m."""
     sole_gap: float = number(0.03, "m", least=0.0)

@@ -44,9 +44,10 @@ class MotionPlannerParams(Parameters):
         )
     )
     """Clearances of the foot in the air."""
-    zmp_forward: float = number(0.035, "m", least=0.0)
-    """ZMP in single support ahead of the ankle, m: near the middle of the sole."""
-    climb_zmp_forward: float = number(0.05, "m", least=0.0)
+    zmp_forward: float = number(0.035, "m")
+    """ZMP in single support ahead of the ankle, m: near the middle of the sole, by
+    default the robot's `standing_com`."""
+    climb_zmp_forward: float = number(0.05, "m")
     """The same while climbing, m: nearer to the knee, which has less to carry."""
     zmp_inward: float = number(0.008, "m", least=0.0)
     """ZMP in single support towards the other foot, m: a shorter way to sway."""

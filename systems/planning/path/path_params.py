@@ -16,8 +16,8 @@ class PathPlannerParams(Parameters):
     """
 
     footprint_radius: float = number(0.39, "m", above=0.0)
-    """Farthest part of the robot from the point midway between its ankles, m: JVRC-1's
-    fingers when it stands."""
+    """Farthest part of the standing robot from the point midway between its ankles, m;
+    by default the robot's `footprint_radius`."""
     margin: float = number(0.06, "m", least=0.0)
     """Safety margin around the footprint, m (the room paper's "security quantity"):
     the sway of a walk, 4 cm, and the error of a box, 2 cm."""

@@ -15,13 +15,14 @@ from pydrake.multibody.plant import MultibodyPlant
 from scipy.spatial import ConvexHull
 
 from footfall.models.robots.robot import RobotModel, Sole
+from footfall.models.robots.robot_errors import RobotError
 from footfall.models.values.feet import FEET, Foot
 from footfall.models.values.vector import Vector
 
 _AXES = np.array(
     [[0, 1, 0], [1, 0, 0], [0, 0, 1], [0, 1, 0], [1, 0, 0], [0, 1, 0]], dtype=float
 )
-"""Hip pitch, roll, yaw, knee, ankle roll, pitch."""
+_NAMES = ("hip pitch", "hip roll", "hip yaw", "knee", "ankle roll", "ankle pitch")
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,9 +116,17 @@ def leg_model(
         outline: of a leg, see `leg_outline`.
 
     Raises:
-        ValueError: the legs are not chains of hip pitch, roll, yaw, knee, ankle roll
+        RobotError: the legs are not chains of hip pitch, roll, yaw, knee, ankle roll
             and pitch with hips and ankles in one point, which the closed form needs.
     """
+    for foot in FEET:
+        if len(robot.leg_joints[foot]) != len(_AXES):
+            problem = (
+                f"leg_joints.{foot}: must be {len(_AXES)} for the robot to walk, "
+                f"got {len(robot.leg_joints[foot])}"
+            )
+            raise RobotError(robot.name, [problem])
+    problems: list[str] = []
     lower, upper = np.zeros((2, 6)), np.zeros((2, 6))
     hips: dict[Foot, Vector] = {}
     offsets = np.zeros((2, 6, 3))
@@ -131,18 +140,21 @@ def leg_model(
             upper[i, k] = min(float(joint.position_upper_limits()[0]), most)
             axis = joint.revolute_axis()  # type: ignore[attr-defined]
             if not np.allclose(axis, _AXES[k], atol=1e-6):
-                raise ValueError(
-                    f"{name}: must turn about {_AXES[k].astype(int).tolist()}, "
-                    f"got {np.round(axis, 3).tolist()}"
+                problems.append(
+                    f"leg_joints.{foot}: {name}, the {_NAMES[k]}, must turn about "
+                    f"{_AXES[k].astype(int).tolist()} for the robot to walk, got "
+                    f"{np.round(axis, 3).tolist()}"
                 )
         hips[foot] = offsets[i, 0]
     joined = offsets[:, [1, 2, 5]]
     lateral = offsets[:, [3, 4], 1]
     if max(np.abs(joined).max(), np.abs(lateral).max()) > 1e-6:
-        raise ValueError(
-            f"{robot.name}: hips and ankles must be points and the knee must lie in "
-            "the plane between them"
+        problems.append(
+            "leg_joints: hips and ankles must be points, and the knee must lie in the "
+            "plane between them, for the robot to walk"
         )
+    if problems:
+        raise RobotError(robot.name, problems)
     return LegModel(
         hips,
         offsets[0, 3][[0, 2]],

@@ -60,7 +60,7 @@ def planning_body(robot: RobotModel, model: MultibodyPlant) -> WholeBody:
     """
     surfaces = {mesh.body: mesh.vertices for mesh in body_meshes(robot)}
     foot = robot.foot_bodies["left"]
-    knee = model.GetJointByName(robot.leg_joints["left"][3])
+    knee = model.GetJointByName(robot.knee_joints["left"])
     outline = leg_outline(surfaces[foot], surfaces[knee.child_body().name()])
     return WholeBody(model, robot, leg_model(model, robot, outline))
 

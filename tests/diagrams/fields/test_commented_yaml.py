@@ -18,7 +18,8 @@ def _saved(path: Path, name: str, *overrides: str) -> str:
 def test_units_and_meanings_are_comments(tmp_path: Path) -> None:
     """Where they are short; no line is long."""
     text = _saved(tmp_path / "a.yaml", "stairs-exp1")
-    assert "    rise: 0.2  # [m] Height of each step (stair paper, experiment 1)\n" in text
+    rise = "    rise: 0.2  # [m] Height of each step (stair paper, experiment 1)\n"
+    assert rise in text
     assert "  mode: dynamic  # one of dynamic, quasi_static\n" in text
     assert "  control_period: 0.005  # [s] Tick of the fast loop\n" in text
     assert "      moment_cost: [0.02, 0.01, 0.05]" in text

@@ -2,7 +2,7 @@
 
 import pytest
 
-from footfall.diagrams.fields.fields_command import fields_text
+from footfall.diagrams.fields_command import fields_text
 from footfall.diagrams.schema import FieldError
 
 

@@ -55,6 +55,8 @@ def test_names_with_an_underscore_are_free() -> None:
 
 def test_editors_are_told_meaning_unit_and_default() -> None:
     """Of each field."""
-    rise = SCHEMA["properties"]["scene"]["properties"]["staircase"]["properties"]["rise"]
+    rise = SCHEMA["properties"]["scene"]["properties"]["staircase"]["properties"][
+        "rise"
+    ]
     assert rise["description"].startswith("[m] Height of each step")
     assert (rise["default"], rise["exclusiveMinimum"]) == (0.2, 0.0)

@@ -6,8 +6,8 @@ import pytest
 from footfall.diagrams.judge.box_clearance import box_distance, crossed, surface_points
 from footfall.diagrams.judge.crossing_judge import (
     CrossingEvidence,
-    eyes_summary,
     measure_crossing,
+    obstacle_map_errors,
 )
 from footfall.diagrams.judge.true_motion import TrueMotion
 from footfall.models.scenes.obstacle import BoxParams
@@ -56,7 +56,7 @@ def test_the_eyes_errors_are_those_of_the_box_that_was_meant() -> None:
     seen = Obstacle(middle + 0.003 * ahead, 0.2, 0.06, 0.14, 1.0)
     wall = Obstacle(np.array([4.0, 0.0]), 0.0, 0.2, 1.0, 5.0)
     evidence = CrossingEvidence((BOX,), (), (ObstacleMap((seen, wall), 0.0, "ok"),), ())
-    summary = eyes_summary(evidence)
+    summary = obstacle_map_errors(evidence)
     assert summary["frames"] == 1
     errors = summary["errors"]
     assert isinstance(errors, dict)

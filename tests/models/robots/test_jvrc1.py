@@ -31,7 +31,7 @@ def test_names_exist(plant: MultibodyPlant) -> None:
     """Every joint and body that the model names."""
     joints = {
         *JVRC1.welded_joints,
-        *JVRC1.waist_joints,
+        *JVRC1.knee_joints.values(),
         *JVRC1.posture,
         *JVRC1.working_range,
         *JVRC1.gains,

@@ -158,6 +158,10 @@ def test_importing_reads_no_source() -> None:
         "print(module._module.cache_info().misses)"
     )
     run = subprocess.run(
-        [sys.executable, "-c", code], check=True, capture_output=True, text=True, cwd=ROOT
+        [sys.executable, "-c", code],
+        check=True,
+        capture_output=True,
+        text=True,
+        cwd=ROOT,
     )
     assert run.stdout.strip() == "0"

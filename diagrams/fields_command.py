@@ -25,7 +25,8 @@ def fields_text(key: str = "", task: str = "") -> str:
     """
     fields = tuple(walk_fields(Scenario))
     if task and task not in TASKS:
-        close = difflib.get_close_matches(task, TASKS, n=1, cutoff=0.3)
+        alike = [kind for kind in TASKS if kind[:4] == task[:4]]
+        close = alike or difflib.get_close_matches(task, TASKS, n=1, cutoff=0.5)
         hint = f"did you mean {close[0]}?" if close else f"there are {', '.join(TASKS)}"
         raise FieldError(f"--task {task}", f"no such task; {hint}")
     chosen = select_fields(fields, key) if key else fields

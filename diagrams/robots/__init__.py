@@ -1,0 +1,1 @@
+"""Robots of one's own: read from files, put into scenarios, tried out."""
