@@ -4,13 +4,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
 
-from footfall.diagrams.closed_loop.standing import build_standing
-from footfall.diagrams.closed_loop.station import robot_alone
+from footfall.diagrams.closed_loop.tasks import build_task
 from footfall.diagrams.robots.robot_files import load_robot, read_robot_file, robot_file
 from footfall.diagrams.scenario import Scenario, load_scenario
 from footfall.diagrams.schema import plain
 from footfall.diagrams.simulation import simulate, summarize
 from footfall.models.robots.robot import RobotModel
+from footfall.models.robots.robot_alone import robot_alone
 from footfall.models.robots.robot_derivation import spelt_out, stance_of
 from footfall.models.robots.robot_description import RobotDescription
 from footfall.models.robots.robot_errors import RobotError
@@ -129,7 +129,7 @@ def _left_out(robot: RobotModel) -> Iterator[str]:
 
 def _stands(robot: RobotModel, scenario: Scenario) -> Capability:
     """Simulates it under the servos and the stabiliser of every task."""
-    task = build_standing(scenario)
+    task = build_task(scenario)
     summary = summarize(task, scenario, simulate(task, 10.0 * STAND_TIME))
     able = summary.outcome == "completed"
     if not able:

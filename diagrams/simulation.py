@@ -250,6 +250,7 @@ def summarize(task: TaskDiagram, scenario: Scenario, simulated: Simulated) -> Su
         real_time_factor=simulated_time / simulated.wall_time or None,
         perception=perception,
         timing_us=timing_us(task.diagram),
+        replaced=task.replaced,
         versions=installed_versions(),
     )
 

@@ -5,13 +5,14 @@ from pathlib import Path
 
 import numpy as np
 from pydrake.common.value import AbstractValue
-from pydrake.systems.framework import DiagramBuilder, OutputPort
+from pydrake.multibody.plant import MultibodyPlant
 from pydrake.systems.primitives import ConstantValueSource, ConstantVectorSource
 
-from footfall.diagrams.closed_loop.station import Station, mover_meshes
-from footfall.diagrams.closed_loop.wiring import add_system
+from footfall.diagrams.closed_loop.lidar_scanning import robot_meshes
+from footfall.diagrams.closed_loop.robot_station import RobotStation
+from footfall.diagrams.closed_loop.setup import Setup
+from footfall.diagrams.closed_loop.station_builder import Station, StationBuilder
 from footfall.diagrams.scenario import Scenario
-from footfall.models.robots.robot_loader import body_meshes
 from footfall.models.scenes.solids import triangle_mesh
 from footfall.models.values.vector import Vector
 from footfall.systems.perception.depth_cloud import DepthCloud
@@ -24,90 +25,74 @@ from footfall.systems.sensing.depth_camera import DepthCamera
 from footfall.systems.sensing.ray_caster import BodyMesh
 
 
-def add_perception(
-    builder: DiagramBuilder, scenario: Scenario, station: Station
-) -> tuple[OutputPort, OutputPort]:
-    """Adds camera and perception, or what the task's file says in their place.
+def build_room_perception(setup: Setup, true: RobotStation) -> Station:
+    """Builds camera and perception, or what the task's file says in their place.
 
-    Args:
-        builder: of the diagram.
-        scenario: what stands where, and the parameters.
-        station: robot and scene.
-
-    Returns:
-        How many frames there are, (1,), and the environment.
+    Takes `body_poses`, unless there is a file; gives `environment` and `frame`, how
+    many frames there were. Parts: `depth_camera`, `depth_cloud`, `floor_extractor`,
+    `obstacle_clusterer`, `environment_exchange`, or `frame` and `environment_file`.
 
     Raises:
         EnvironmentFileError: the scenario's environment cannot be read.
     """
-    if scenario.task.environment is not None:
-        return _add_file(builder, Path(scenario.task.environment))
-    camera = _add_camera(builder, scenario, station)
-    params = scenario.controllers()
-    cloud = add_system(
-        builder,
-        "depth_cloud",
-        DepthCloud(
-            params.depth_cloud,
-            [
-                box_around(mesh.body_index, mesh.vertices)
-                for mesh in _robot_meshes(station)
-            ],
+    station = StationBuilder("perception", setup.parts)
+    if setup.scenario.task.environment is not None:
+        _add_file(station, Path(setup.scenario.task.environment))
+        return station.build()
+    params = setup.params
+    meshes = robot_meshes(setup.robot, true)
+    station.add("depth_camera", lambda: _camera(setup.scenario, true.plant, meshes))
+    own_boxes = [box_around(mesh.body_index, mesh.vertices) for mesh in meshes]
+    station.add("depth_cloud", lambda: DepthCloud(params.depth_cloud, own_boxes))
+    station.add("floor_extractor", lambda: FloorExtractor(params.floor))
+    station.add("obstacle_clusterer", lambda: ObstacleClusterer(params.obstacles))
+    station.add("environment_exchange", EnvironmentExchange)
+    for source, *targets in (
+        ("depth_camera.depth_image", "depth_cloud.depth_image"),
+        ("depth_camera.frame_body_poses", "depth_cloud.body_poses"),
+        ("depth_cloud.cloud", "floor_extractor.cloud"),
+        (
+            "depth_cloud.viewpoint",
+            "floor_extractor.viewpoint",
+            "obstacle_clusterer.viewpoint",
         ),
-    )
-    floor = add_system(builder, "floor_extractor", FloorExtractor(params.floor))
-    clusters = add_system(
-        builder, "obstacle_clusterer", ObstacleClusterer(params.obstacles)
-    )
-    exchange = add_system(builder, "environment_exchange", EnvironmentExchange())
-    for source, port, system, target in (
-        (camera, "depth_image", cloud, "depth_image"),
-        (camera, "frame_body_poses", cloud, "body_poses"),
-        (cloud, "cloud", floor, "cloud"),
-        (cloud, "viewpoint", floor, "viewpoint"),
-        (cloud, "viewpoint", clusters, "viewpoint"),
-        (floor, "floor", clusters, "floor"),
-        (floor, "obstacles", clusters, "obstacles"),
-        (clusters, "environment", exchange, "environment"),
+        ("floor_extractor.floor", "obstacle_clusterer.floor"),
+        ("floor_extractor.obstacles", "obstacle_clusterer.obstacles"),
+        ("obstacle_clusterer.environment", "environment_exchange.environment"),
     ):
-        builder.Connect(source.GetOutputPort(port), system.GetInputPort(target))
-    return camera.GetOutputPort("frame"), exchange.GetOutputPort("environment")
+        station.connect(source, *targets)
+    station.take("body_poses", "depth_camera.body_poses")
+    station.give("frame", "depth_camera.frame")
+    station.give("environment", "environment_exchange.environment")
+    return station.build()
 
 
-def _add_file(builder: DiagramBuilder, path: Path) -> tuple[OutputPort, OutputPort]:
+def _add_file(station: StationBuilder, path: Path) -> None:
     environment = AbstractValue.Make(load_environment(path))
     once: Vector = np.ones(1)
-    frame = add_system(builder, "frame", ConstantVectorSource(once))
-    source = add_system(builder, "environment_file", ConstantValueSource(environment))
-    return frame.get_output_port(), source.get_output_port()
+    station.add("frame", lambda: ConstantVectorSource(once))
+    station.add("environment_file", lambda: ConstantValueSource(environment))
+    station.give("frame", "frame.y0")
+    station.give("environment", "environment_file.y0")
 
 
-def _add_camera(
-    builder: DiagramBuilder, scenario: Scenario, station: Station
+def _camera(
+    scenario: Scenario, plant: MultibodyPlant, robot: list[BodyMesh]
 ) -> DepthCamera:
-    lens, plant = scenario.sensors.camera, station.plant
-    camera = add_system(
-        builder,
-        "depth_camera",
-        DepthCamera(
-            dataclasses.replace(lens, seed=lens.seed + scenario.simulation.seed),
-            scene=triangle_mesh(scenario.scene.solids()),
-            body_meshes=[*_robot_meshes(station), *mover_meshes(scenario, plant)],
-        ),
+    lens = scenario.sensors.camera
+    return DepthCamera(
+        dataclasses.replace(lens, seed=lens.seed + scenario.simulation.seed),
+        scene=triangle_mesh(scenario.scene.solids()),
+        body_meshes=[*robot, *_mover_meshes(scenario, plant)],
     )
-    builder.Connect(
-        plant.get_body_poses_output_port(),  # type: ignore[no-untyped-call]
-        camera.GetInputPort("body_poses"),
-    )
-    return camera
 
 
-def _robot_meshes(station: Station) -> list[BodyMesh]:
-    return [
-        BodyMesh(
-            int(station.plant.GetBodyByName(mesh.body, station.instance).index()),
-            mesh.vertices,
-            mesh.triangles.astype(np.int64),
-        )
-        for mesh in body_meshes(station.robot)
-    ]
+def _mover_meshes(scenario: Scenario, plant: MultibodyPlant) -> list[BodyMesh]:
+    """Gives what a camera sees of the boxes that move."""
+    meshes = []
+    for box in scenario.scene.movers:
+        still = dataclasses.replace(box, x=0.0, y=0.0)
+        mesh = triangle_mesh([still.solid()])
+        body = plant.GetBodyByName(f"mover_{box.name}")
+        meshes.append(BodyMesh(int(body.index()), mesh.vertices, mesh.triangles))
+    return meshes

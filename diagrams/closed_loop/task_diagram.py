@@ -1,26 +1,18 @@
 """What a task's builder hands to whoever runs it."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
-from pydrake.geometry import Meshcat, MeshcatVisualizer
+from pydrake.geometry import Meshcat, SceneGraph
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import ModelInstanceIndex
-from pydrake.systems.framework import (
-    Context,
-    Diagram,
-    DiagramBuilder,
-    OutputPort,
-    System,
-)
+from pydrake.systems.framework import Context, Diagram, OutputPort, System
 
-from footfall.diagrams.closed_loop.station import Station
-from footfall.diagrams.closed_loop.walking import Stand
-from footfall.diagrams.scenario import Scenario
+from footfall.diagrams.closed_loop.leaf_systems import eval_output, find_system
 from footfall.diagrams.signals import SignalRecorder
 from footfall.models.robots.robot import RobotModel
 from footfall.models.scenes.scene import SceneParams
 from footfall.models.values.planned import TaskStatus
-from footfall.models.values.vector import Vector
 from footfall.systems.ports import eval_abstract
 
 
@@ -33,6 +25,8 @@ class TaskDiagram:
     diagram: Diagram
     plant: MultibodyPlant
     """The true robot and scene."""
+    scene_graph: SceneGraph
+    """Their shapes."""
     robot_instance: ModelInstanceIndex
     """The robot in the plant."""
     robot: RobotModel
@@ -48,6 +42,8 @@ class TaskDiagram:
     a goal."""
     meshcat: Meshcat | None = None
     """Where the run can be watched live, where that was asked for."""
+    replaced: Mapping[str, str] = field(default_factory=dict)
+    """The class of every part that a user has put in the place of ours, by its name."""
 
     def task_status(self, root_context: Context) -> TaskStatus:
         """How the executive says the task is going."""
@@ -55,45 +51,25 @@ class TaskDiagram:
         context = system.GetMyContextFromRoot(root_context)
         return eval_abstract(self.status, context, TaskStatus)
 
+    def system(self, name: str) -> System:
+        """Finds a System of the closed loop by its name, or a station.
 
-def build_diagram(
-    builder: DiagramBuilder,
-    scenario: Scenario,
-    station: Station,
-    stand: Stand,
-    executive: System,
-    signals: SignalRecorder,
-    *,
-    goal: Vector | None = None,
-    meshcat: Meshcat | None = None,
-) -> TaskDiagram:
-    """Builds the closed loop once everything is wired.
+        Raises:
+            LookupError: there is none; the message lists those that there are.
+        """
+        return find_system(self.diagram, name)
 
-    Args:
-        builder: of the diagram, which is named after the scenario's kind of task.
-        scenario: what it was wired from.
-        station: robot and scene.
-        stand: where the robot stands in the default context.
-        executive: its `status` says how the task is going.
-        signals: what is logged.
-        goal: midpoint of the feet and heading at the end in W, (3,), m and rad; None
-            where the task has none.
-        meshcat: where the run is to be shown live, if anywhere.
-    """
-    if meshcat is not None:
-        MeshcatVisualizer.AddToBuilder(builder, station.scene_graph, meshcat)
-    station.plant.SetDefaultPositions(station.instance, stand.positions)
-    diagram = builder.Build()
-    diagram.set_name(scenario.task.kind)
-    return TaskDiagram(
-        kind=scenario.task.kind,
-        diagram=diagram,
-        plant=station.plant,
-        robot_instance=station.instance,
-        robot=station.robot,
-        scene=scenario.scene,
-        signals=signals,
-        status=executive.GetOutputPort("status"),
-        goal=None if goal is None else (goal[0], goal[1], goal[2]),
-        meshcat=meshcat,
-    )
+    def output(self, name: str, root_context: Context) -> object:
+        """Evaluates any output port of the closed loop.
+
+        Args:
+            name: "SYSTEM.PORT".
+            root_context: the diagram's.
+
+        Returns:
+            The vector, (n,), or the value.
+
+        Raises:
+            LookupError: there is no such port; the message lists those that there are.
+        """
+        return eval_output(self.diagram, name, root_context)

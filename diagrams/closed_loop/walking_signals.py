@@ -1,182 +1,155 @@
 """The signals that every walking task logs."""
 
-from pydrake.systems.framework import DiagramBuilder, OutputPort, System
+from typing import NamedTuple
 
-from footfall.diagrams.closed_loop.station import Station
-from footfall.diagrams.closed_loop.walking import Walking
-from footfall.diagrams.signal_names import POLYGON_SIGNAL, STATE_SIGNAL
-from footfall.diagrams.signals import SignalRecorder
-
-SIGNAL_PERIOD = 0.005
-"""Between samples of vector signals, s."""
-VALUE_PERIOD = 0.025
-"""Between looks at abstract signals, s."""
+from footfall.diagrams.closed_loop.loop_builder import (
+    SIGNAL_PERIOD,
+    VALUE_PERIOD,
+    LoopBuilder,
+)
+from footfall.diagrams.closed_loop.robot_station import RobotStation
+from footfall.diagrams.closed_loop.setup import Setup
+from footfall.diagrams.signal_names import MOVERS_SIGNAL, POLYGON_SIGNAL, STATE_SIGNAL
 
 _SIDES = ("left", "right")
 _XYZ = ("x", "y", "z")
+_POSE = (*_XYZ, "roll", "pitch", "yaw")
+_POSE_UNITS = ("m",) * 3 + ("rad",) * 3
+_WRENCH = ("fx", "fy", "fz", "mx", "my", "mz")
+_WRENCH_UNITS = ("N",) * 3 + ("N m",) * 3
 
 
 def _columns(names: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(f"{side}_{name}" for side in _SIDES for name in names)
 
 
-def record_walking(
-    builder: DiagramBuilder, station: Station, walking: Walking, executive: System
-) -> SignalRecorder:
+class LoggedVector(NamedTuple):
+    """A vector port that is logged."""
+
+    name: str
+    """Of the signal."""
+    port: str
+    """"SYSTEM.PORT"."""
+    columns: tuple[str, ...]
+    units: tuple[str, ...] | str
+
+
+_CONTACTS = (*_columns(("contact",)), *_columns(("carrying_length",)))
+_CONTACT_UNITS = ("1", "1", "m", "m")
+WALKING = (
+    LoggedVector(
+        "station.foot_wrenches",
+        "foot_wrench_sensor.foot_wrenches",
+        _columns(_WRENCH),
+        _WRENCH_UNITS * 2,
+    ),
+    LoggedVector("balance_state.zmp", "foot_wrench_sensor.zmp", _XYZ, "m"),
+    LoggedVector(
+        "stabilizer.foot_wrenches",
+        "stabilizer.foot_wrenches",
+        _columns(_WRENCH),
+        _WRENCH_UNITS * 2,
+    ),
+    LoggedVector("balance_state.com", "kinematic_state.com", _XYZ, "m"),
+    LoggedVector("balance_state.dcm", "stabilizer.dcm", _XYZ[:2], "m"),
+    LoggedVector(
+        "reference.com",
+        "com_reference.com_reference",
+        tuple(f"{name}{axis}" for name in ("", "v", "a") for axis in _XYZ),
+        ("m",) * 3 + ("m/s",) * 3 + ("m/s^2",) * 3,
+    ),
+    LoggedVector("reference.dcm", "stabilizer.dcm_reference", _XYZ[:2], "m"),
+    LoggedVector("reference.zmp", "motion_player.zmp", _XYZ, "m"),
+    LoggedVector("stabilizer.zmp_command", "stabilizer.zmp_command", _XYZ[:2], "m"),
+    LoggedVector(
+        "feet.true", "kinematic_state.foot_poses", _columns(_POSE), _POSE_UNITS * 2
+    ),
+    LoggedVector(
+        "feet.wanted",
+        "landing_adaptor.foot_references",
+        _columns(_POSE) + _columns(tuple(f"{name}_rate" for name in _POSE)),
+        _POSE_UNITS * 2 + (("m/s",) * 3 + ("rad/s",) * 3) * 2,
+    ),
+    LoggedVector(
+        "motion_player.contacts", "motion_player.contacts", _CONTACTS, _CONTACT_UNITS
+    ),
+    LoggedVector(
+        "landing_adaptor.contacts",
+        "landing_adaptor.contacts",
+        _CONTACTS,
+        _CONTACT_UNITS,
+    ),
+    LoggedVector(
+        "static_stability.margin", "static_stability.margin", ("margin",), "m"
+    ),
+    LoggedVector(
+        "contact_monitor.foot_forces",
+        "contact_monitor.foot_forces",
+        _columns(("fx", "fy", "fz")),
+        "N",
+    ),
+    LoggedVector(
+        "contact_monitor.other_support", "contact_monitor.other_support", ("fz",), "N"
+    ),
+    LoggedVector("contact_monitor.impact", "contact_monitor.impact", _SIDES, "N"),
+    LoggedVector(
+        "contact_monitor.friction_ratio",
+        "contact_monitor.friction_ratio",
+        ("ratio",),
+        "1",
+    ),
+)
+"""What balance and tracking do, and what the feet truly meet."""
+
+
+def log_walking(loop: LoopBuilder, setup: Setup, true: RobotStation) -> None:
     """Logs state, torques, wrenches, CoM, DCM, ZMP, feet, contacts and decisions.
 
+    Of a part that a user has replaced the ports that it does not have are left out.
+
     Args:
-        builder: of the diagram.
-        station: robot and scene.
-        walking: the controllers.
-        executive: what decides on their plans.
-
-    Returns:
-        The recorder, to which a task adds its own signals.
+        loop: the closed loop.
+        setup: its robot.
+        true: the plant, whose names the columns bear.
     """
-    recorder = SignalRecorder(builder)
-    plant, instance = station.plant, station.instance
-
-    def add(
-        name: str,
-        port: OutputPort,
-        columns: tuple[str, ...],
-        units: tuple[str, ...] | str,
-    ) -> None:
-        recorder.add_vector(name, port, columns, units, SIGNAL_PERIOD)
-
-    state_names = plant.GetStateNames(instance, False)
-    add(
-        STATE_SIGNAL,
-        station.joint_state,
-        tuple(state_names),
-        _state_units(state_names),
-    )
-    joints = tuple(plant.GetActuatorNames(instance, False))
-    add(
-        "plant.net_actuation",
-        plant.get_net_actuation_output_port(instance),
-        joints,
-        "N m",
-    )
-    add("station.torque_command", station.torque.get_output_port(), joints, "N m")
-    wanted = station.wanted_torque.GetOutputPort("torque_wanted")
-    add("station.torque_wanted", wanted, joints, "N m")
-    _record_truth(recorder, station, joints)
-
-    wrench = ("fx", "fy", "fz", "mx", "my", "mz")
-    units = ("N",) * 3 + ("N m",) * 3
-    sensor = station.wrench_sensor
-    add(
-        "station.foot_wrenches",
-        sensor.GetOutputPort("foot_wrenches"),
-        _columns(wrench),
-        units * 2,
-    )
-    add("balance_state.zmp", sensor.GetOutputPort("zmp"), _XYZ, "m")
-    stabilizer = walking.stabilizer
-    add(
-        "stabilizer.foot_wrenches",
-        stabilizer.GetOutputPort("foot_wrenches"),
-        _columns(wrench),
-        units * 2,
-    )
-
-    kinematics = station.kinematics
-    add("balance_state.com", kinematics.GetOutputPort("com"), _XYZ, "m")
-    add("balance_state.dcm", stabilizer.GetOutputPort("dcm"), _XYZ[:2], "m")
-    com_columns = tuple(
-        f"{name}{axis}" for name in ("", "v", "a") for axis in ("x", "y", "z")
-    )
-    add(
-        "reference.com",
-        walking.com_reference,
-        com_columns,
-        ("m",) * 3 + ("m/s",) * 3 + ("m/s^2",) * 3,
-    )
-    add("reference.dcm", stabilizer.GetOutputPort("dcm_reference"), _XYZ[:2], "m")
-    add("reference.zmp", walking.player.GetOutputPort("zmp"), _XYZ, "m")
-    add(
-        "stabilizer.zmp_command",
-        stabilizer.GetOutputPort("zmp_command"),
-        _XYZ[:2],
-        "m",
-    )
-
-    pose = (*_XYZ, "roll", "pitch", "yaw")
-    pose_units = ("m",) * 3 + ("rad",) * 3
-    add(
-        "feet.true",
-        kinematics.GetOutputPort("foot_poses"),
-        _columns(pose),
-        pose_units * 2,
-    )
-    rates = tuple(f"{name}_rate" for name in pose)
-    rate_units = ("m/s",) * 3 + ("rad/s",) * 3
-    add(
-        "feet.wanted",
-        walking.landing.GetOutputPort("foot_references"),
-        _columns(pose) + _columns(rates),
-        pose_units * 2 + rate_units * 2,
-    )
-    contact_columns = (*_columns(("contact",)), *_columns(("carrying_length",)))
-    for name, source in (
-        ("motion_player.contacts", walking.player),
-        ("landing_adaptor.contacts", walking.landing),
-    ):
-        add(
-            name,
-            source.GetOutputPort("contacts"),
-            contact_columns,
-            ("1", "1", "m", "m"),
-        )
-    add(
-        "static_stability.margin",
-        walking.stability.GetOutputPort("margin"),
-        ("margin",),
-        "m",
-    )
-    recorder.add_value(
-        POLYGON_SIGNAL,
-        walking.stability.GetOutputPort("polygon"),
-        VALUE_PERIOD,
-        keep=False,
-    )
+    signals = loop.signals
+    for name, port, columns, units in (*_plant_signals(true), *WALKING):
+        if (output := loop.find_output(port)) is not None:
+            signals.add_vector(name, output, columns, units, SIGNAL_PERIOD)
+    loop.log("contact_monitor.touches")
+    if (polygon := loop.find_output(POLYGON_SIGNAL)) is not None:
+        signals.add_value(POLYGON_SIGNAL, polygon, VALUE_PERIOD, keep=False)
     for port in ("status", "footstep_plan"):
-        recorder.add_value(
-            f"executive.{port}", executive.GetOutputPort(port), VALUE_PERIOD
-        )
-    return recorder
+        loop.log(f"planning.{port}", name=f"executive.{port}")
 
 
-def _record_truth(
-    recorder: SignalRecorder, station: Station, joints: tuple[str, ...]
-) -> None:
-    """Logs what watches every step of the plant."""
-    monitor = station.contact_monitor
-    for port, columns, unit in (
-        ("foot_forces", _columns(("fx", "fy", "fz")), "N"),
-        ("other_support", ("fz",), "N"),
-        ("impact", _SIDES, "N"),
-        ("friction_ratio", ("ratio",), "1"),
-    ):
-        recorder.add_vector(
-            f"contact_monitor.{port}",
-            monitor.GetOutputPort(port),
-            columns,
-            unit,
-            SIGNAL_PERIOD,
+def _plant_signals(true: RobotStation) -> list[LoggedVector]:
+    """Names the signals of the plant and of its joints, after the robot in it."""
+    plant, instance = true.plant, true.instance
+    joints = tuple(plant.GetActuatorNames(instance, False))
+    state = plant.get_state_output_port(instance).get_name()
+    actuation = plant.get_net_actuation_output_port(instance).get_name()
+    names = plant.GetStateNames(instance, False)
+    signals = [
+        LoggedVector(STATE_SIGNAL, f"plant.{state}", tuple(names), _state_units(names)),
+        LoggedVector("plant.net_actuation", f"plant.{actuation}", joints, "N m"),
+        LoggedVector("station.torque_command", "torque_hold.y", joints, "N m"),
+        LoggedVector(
+            "station.torque_wanted", "wanted_torque.torque_wanted", joints, "N m"
+        ),
+        LoggedVector(
+            "speed_monitor.peak_speeds", "speed_monitor.peak_speeds", joints, "rad/s"
+        ),
+    ]
+    if plant.num_positions(true.movers):
+        names = plant.GetStateNames(true.movers, False)
+        half = len(names) // 2
+        movers = plant.get_state_output_port(true.movers).get_name()
+        units = ("m",) * half + ("m/s",) * half
+        signals.append(
+            LoggedVector(MOVERS_SIGNAL, f"plant.{movers}", tuple(names), units)
         )
-    recorder.add_vector(
-        "speed_monitor.peak_speeds",
-        station.speed_monitor.GetOutputPort("peak_speeds"),
-        joints,
-        "rad/s",
-        SIGNAL_PERIOD,
-    )
-    recorder.add_value(
-        "contact_monitor.touches", monitor.GetOutputPort("touches"), VALUE_PERIOD
-    )
+    return signals
 
 
 def _state_units(names: list[str]) -> tuple[str, ...]:

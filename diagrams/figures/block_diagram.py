@@ -1,7 +1,6 @@
 """The block diagram of a closed loop as a picture."""
 
 import os
-from collections import defaultdict
 from collections.abc import Iterator
 from contextlib import contextmanager
 from html import escape
@@ -9,10 +8,14 @@ from typing import NamedTuple
 
 from pydrake.systems.framework import Diagram, PortDataType, System
 
+from footfall.diagrams.closed_loop.leaf_systems import leaf_systems, leaf_wires
+from footfall.diagrams.closed_loop.parts import input_ports, output_ports
 from footfall.systems.signal_log import SignalLog
 from footfall.systems.value_log_sink import ValueLogSink
 
 VECTOR_COLOR, ABSTRACT_COLOR = "#1f5fa8", "#b3541e"
+OPEN_COLOR = "#8a8a8a"
+"""Of a port that nothing is connected to."""
 FILLS = {
     "sensing": "#e3f1e5",
     "perception": "#fdf0d5",
@@ -32,9 +35,11 @@ class Block(NamedTuple):
     """Its class."""
     fill: str
     inputs: tuple[str, ...]
-    """Connected input ports."""
     outputs: tuple[str, ...]
-    """Connected output ports."""
+    station: str
+    """The subdiagram that it is in, "" for one that the diagram holds itself."""
+    open: frozenset[str]
+    """Of its ports those that nothing is connected to."""
 
 
 class Wire(NamedTuple):
@@ -51,47 +56,41 @@ class Wire(NamedTuple):
 def topology(diagram: Diagram) -> tuple[list[Block], list[Wire]]:
     """Lists the blocks of a diagram and how they are connected, without log sinks.
 
-    A subdiagram is one block. Ports that nothing is connected to are left out.
+    The subdiagrams are looked into. Unconnected ports are listed too, for they are what
+    a further part can be connected to.
     """
-    wires = []
-    for target, source in diagram.connection_map().items():
-        (input_system, input_index), (output_system, output_index) = target, source
-        if _is_log(input_system):
-            continue
-        output = output_system.get_output_port(int(output_index))
-        wires.append(
-            Wire(
-                output_system.get_name(),
-                output.get_name(),
-                input_system.get_name(),
-                input_system.get_input_port(int(input_index)).get_name(),
-                output.get_data_type() == PortDataType.kAbstractValued,
-            )
+    wires = [
+        Wire(
+            source.get_system().get_name(),
+            source.get_name(),
+            target.get_system().get_name(),
+            target.get_name(),
+            source.get_data_type() == PortDataType.kAbstractValued,
         )
-    used_inputs, used_outputs = defaultdict(set), defaultdict(set)
-    for wire in wires:
-        used_inputs[wire.target].add(wire.input)
-        used_outputs[wire.source].add(wire.output)
+        for source, target in leaf_wires(diagram)
+        if not _is_log(target.get_system())
+    ]
+    used_inputs = {(wire.target, wire.input) for wire in wires}
+    used_outputs = {(wire.source, wire.output) for wire in wires}
     blocks = []
-    for system in diagram.GetSystems():
+    for station, system in leaf_systems(diagram):
         if _is_log(system):
             continue
         name = system.get_name()
-        inputs = [
-            system.get_input_port(index).get_name()
-            for index in range(system.num_input_ports())
-        ]
-        outputs = [
-            system.get_output_port(index).get_name()
-            for index in range(system.num_output_ports())
-        ]
+        inputs = [port.get_name() for port in input_ports(system)]
+        outputs = [port.get_name() for port in output_ports(system)]
         blocks.append(
             Block(
                 name,
                 type(system).__name__.partition("_")[0],
                 _fill(system),
-                tuple(port for port in inputs if port in used_inputs[name]),
-                tuple(port for port in outputs if port in used_outputs[name]),
+                tuple(inputs),
+                tuple(outputs),
+                station,
+                frozenset(
+                    [port for port in inputs if (name, port) not in used_inputs]
+                    + [port for port in outputs if (name, port) not in used_outputs]
+                ),
             )
         )
     return blocks, wires
@@ -100,8 +99,9 @@ def topology(diagram: Diagram) -> tuple[list[Block], list[Wire]]:
 def block_diagram_svg(diagram: Diagram, title: str) -> str:
     """Draws the diagram's blocks and wires as SVG, laid out by Graphviz.
 
-    Blocks are coloured by what they are for; wires that carry vectors are solid and
-    blue, those that carry abstract values dashed and brown.
+    Blocks are framed by station and coloured by what they are for; wires that carry
+    vectors are solid and blue, those that carry abstract values dashed and brown.
+    Ports that nothing is connected to are grey.
     """
     # Where its X11 libraries are missing, all but this one picture can be drawn.
     import pygraphviz  # type: ignore[import-untyped]
@@ -120,6 +120,17 @@ def block_diagram_svg(diagram: Diagram, title: str) -> str:
     graph.edge_attr.update(arrowsize="0.6", penwidth="1.2")
     for block in blocks:
         graph.add_node(block.name, label=_label(block))
+    for station in {block.station: None for block in blocks if block.station}:
+        graph.add_subgraph(
+            [block.name for block in blocks if block.station == station],
+            name=f"cluster_{station}",
+            label=station,
+            labeljust="l",
+            fontsize="16",
+            fontcolor="#666666",
+            color="#bbbbbb",
+            style="rounded",
+        )
     for wire in wires:
         graph.add_edge(
             wire.source,
@@ -166,7 +177,7 @@ def _label(block: Block) -> str:
         left, right = (
             (
                 f'<TD ALIGN="{side}" PORT="{key}_{escape(ports[row])}">'
-                f"{escape(ports[row])}</TD>"
+                f"{_port(ports[row], block)}</TD>"
             )
             if row < len(ports)
             else "<TD></TD>"
@@ -189,9 +200,16 @@ def _label(block: Block) -> str:
     )
 
 
+def _port(name: str, block: Block) -> str:
+    if name in block.open:
+        return f'<FONT COLOR="{OPEN_COLOR}">{escape(name)}</FONT>'
+    return escape(name)
+
+
 def _legend(title: str) -> str:
     return (
         f'<<FONT POINT-SIZE="11">{escape(title)}: '
         f'<FONT COLOR="{VECTOR_COLOR}">&#8212;&#8212; vector</FONT>   '
-        f'<FONT COLOR="{ABSTRACT_COLOR}">- - - abstract value</FONT></FONT>>'
+        f'<FONT COLOR="{ABSTRACT_COLOR}">- - - abstract value</FONT>   '
+        f'<FONT COLOR="{OPEN_COLOR}">port that nothing is connected to</FONT></FONT>>'
     )

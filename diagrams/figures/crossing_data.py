@@ -10,10 +10,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from footfall.diagrams.closed_loop.station import robot_alone
 from footfall.diagrams.judge.crossing_judge import SAME
 from footfall.diagrams.run_data import RunData
 from footfall.diagrams.signal_names import PLAN_SIGNAL
+from footfall.models.robots.robot_alone import robot_alone
 from footfall.models.scenes.solid_names import is_box
 from footfall.models.scenes.solids import Box
 from footfall.models.values.feet import Foot

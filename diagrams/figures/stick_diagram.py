@@ -10,7 +10,6 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Polygon, Rectangle
 from pydrake.multibody.plant import MultibodyPlant
 
-from footfall.diagrams.closed_loop.station import robot_alone
 from footfall.diagrams.figures.crossing_data import (
     CrossingData,
     Phases,
@@ -18,6 +17,7 @@ from footfall.diagrams.figures.crossing_data import (
 )
 from footfall.diagrams.figures.figure_parts import COLORS, new_figure, set_title
 from footfall.diagrams.run_data import RunData
+from footfall.models.robots.robot_alone import robot_alone
 from footfall.models.values.feet import Foot
 from footfall.models.values.obstacle import KeyConfiguration, Obstacle, across
 from footfall.models.values.vector import Vector

@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from pydrake.systems.framework import Diagram
 
+from footfall.diagrams.closed_loop.leaf_systems import leaf_systems
 from footfall.models.scenes.mover import MoverParams
 from footfall.models.scenes.obstacle import BoxParams
 from footfall.models.scenes.scene import SceneParams
@@ -79,11 +80,12 @@ def stage_ms(diagram: Diagram, frames: int) -> dict[str, float]:
     Returns:
         By stage, and "total"; empty where there is no camera or no frame.
     """
+    systems = {system.get_name(): system for _, system in leaf_systems(diagram)}
     times = {}
     for stage, name in STAGES.items():
-        if not frames or not diagram.HasSubsystemNamed(name):
+        if not frames or name not in systems:
             return {}
-        watch = stopwatch(diagram.GetSubsystemByName(name))
+        watch = stopwatch(systems[name])
         times[stage] = 1e3 * watch.total / frames if watch else 0.0
     times["total"] = sum(times.values())
     return times

@@ -2,14 +2,15 @@
 
 import json
 import platform
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
-from pydrake.systems.framework import Diagram, System
+from pydrake.systems.framework import Diagram
 
+from footfall.diagrams.closed_loop.leaf_systems import leaf_systems
 from footfall.diagrams.judge.outcome import Judgement
 from footfall.models.scenes.staircase import Tread
 from footfall.models.values.perceived import PlaneSegment, PlaneSegmentation, Staircase
@@ -36,6 +37,8 @@ class Summary(Judgement):
     """Frames, ms a frame by stage, errors against the true scene."""
     timing_us: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     """By system: median, 99th percentile and count of its callbacks, us."""
+    replaced: Mapping[str, str] = field(default_factory=dict)
+    """By part of the closed loop the class of the user's that took its place."""
     versions: Mapping[str, str] = field(default_factory=dict)
 
     def to_json(self) -> dict[str, Json]:
@@ -53,24 +56,15 @@ class Summary(Judgement):
 def timing_us(diagram: Diagram) -> dict[str, dict[str, float]]:
     """Median, 99th percentile and count of the timed callbacks of every system, us."""
     timings = {}
-    for name, system in _systems(diagram, ""):
+    for _, system in leaf_systems(diagram):
         watch = stopwatch(system)
         if watch is not None and watch.count:
-            timings[name] = {
+            timings[system.get_name()] = {
                 "median": round(watch.quantile(0.5) * 1e6, 1),
                 "p99": round(watch.quantile(0.99) * 1e6, 1),
                 "calls": watch.count,
             }
     return timings
-
-
-def _systems(diagram: Diagram, prefix: str) -> Iterator[tuple[str, System]]:
-    for system in diagram.GetSystems():
-        name = prefix + system.get_name()
-        if isinstance(system, Diagram):
-            yield from _systems(system, name + "/")
-        else:
-            yield name, system
 
 
 def installed_versions() -> dict[str, str]:

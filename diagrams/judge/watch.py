@@ -1,6 +1,5 @@
 """What the simulation looks at of the true robot while it goes on."""
 
-from pydrake.geometry import SceneGraph
 from pydrake.multibody.plant import ContactResults
 from pydrake.systems.framework import Context
 
@@ -46,11 +45,9 @@ class RobotWatch:
         self._task = task
         plant = task.plant
         self._context = plant.GetMyContextFromRoot(context)
-        scene_graph = task.diagram.GetSubsystemByName("scene_graph")
-        assert isinstance(scene_graph, SceneGraph)
         self._watched = watched_geometry(
             plant,
-            scene_graph.model_inspector(),
+            task.scene_graph.model_inspector(),
             task.robot_instance,
             tuple(task.robot.foot_bodies[foot] for foot in FEET),
             is_sole,

@@ -15,9 +15,10 @@ from pydrake.common.value import AbstractValue
 from pydrake.math import RigidTransform
 from pydrake.systems.framework import System
 
-from footfall.diagrams.closed_loop.station import robot_alone
+from footfall.diagrams.closed_loop.leaf_systems import leaf_systems
 from footfall.diagrams.closed_loop.tasks import build_task
 from footfall.diagrams.scenario import Scenario, load_scenario
+from footfall.models.robots.robot_alone import robot_alone
 from footfall.models.scenes.scene import SceneParams
 from footfall.models.scenes.solids import triangle_mesh, upright_pose
 from footfall.models.values.perceived import PlaneSegmentation, Staircase
@@ -110,7 +111,7 @@ class Robot:
 
     def system(self, name: str) -> System:
         """A subsystem."""
-        return self.task.diagram.GetSubsystemByName(name)
+        return self.task.system(name)
 
     def port(self, name: str, port: str) -> Any:
         """The value at a subsystem's output."""
@@ -131,9 +132,9 @@ class Robot:
         """Puts feet, (2, 6), and CoM, (3,), where its planners are to begin."""
         self.feet, self.com = feet, com
         references = np.concatenate([feet.ravel(), np.zeros(12)])
-        for name in ("footstep_planner", "motion_planner", "crossing_planner"):
-            if not self.task.diagram.HasSubsystemNamed(name):
-                continue
+        planners = ("footstep_planner", "motion_planner", "crossing_planner")
+        names = [leaf.get_name() for _, leaf in leaf_systems(self.task.diagram)]
+        for name in (name for name in planners if name in names):
             for port, value in (
                 ("foot_poses", feet.ravel()),
                 ("foot_references", references),

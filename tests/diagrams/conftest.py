@@ -12,8 +12,8 @@ from pydrake.multibody.plant import AddMultibodyPlant, MultibodyPlantConfig
 from pydrake.systems.framework import Context, DiagramBuilder, LeafSystem
 from pydrake.systems.primitives import ConstantVectorSource
 
-from footfall.diagrams.closed_loop.obstacle_crossing import build_obstacle_crossing
 from footfall.diagrams.closed_loop.task_diagram import TaskDiagram
+from footfall.diagrams.closed_loop.tasks import build_task
 from footfall.diagrams.judge.evidence import Evidence, robot_limits
 from footfall.diagrams.scenario import Scenario, SimulationParams, load_scenario
 from footfall.diagrams.signals import SignalRecorder
@@ -103,7 +103,7 @@ def crossed_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         ],
     )
     folder = tmp_path_factory.mktemp("crossed") / "run"
-    run_task(build_obstacle_crossing(scenario), scenario, folder)
+    run_task(build_task(scenario), scenario, folder)
     return folder
 
 
@@ -237,6 +237,7 @@ def standing_task(
         kind="standing",
         diagram=builder.Build(),
         plant=plant,
+        scene_graph=scene_graph,
         robot_instance=robot,
         robot=STIFF,
         scene=scene,

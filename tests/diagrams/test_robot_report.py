@@ -7,7 +7,7 @@ import pytest
 from typer.testing import CliRunner
 
 from footfall.diagrams.cli import app
-from footfall.diagrams.closed_loop.standing import build_standing
+from footfall.diagrams.closed_loop.tasks import build_task
 from footfall.diagrams.robot_report import check_robot
 from footfall.diagrams.scenario import load_scenario
 from footfall.diagrams.simulation import simulate, summarize
@@ -75,7 +75,7 @@ def test_published_humanoids_stand(name: str) -> None:
     scenario = load_scenario(
         "stand", [f"robot={DOCS / name}.yaml", "task.stand_time=2.0"]
     )
-    task = build_standing(scenario)
+    task = build_task(scenario)
     summary = summarize(task, scenario, simulate(task, 10.0))
     assert summary.outcome == "completed"
     assert summary.max_foot_slip_m is not None

@@ -14,8 +14,8 @@ from pathlib import Path
 import numpy as np
 from pydrake.math import RigidTransform
 
-from footfall.diagrams.closed_loop.station import robot_alone
 from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.robots.robot_alone import robot_alone
 from footfall.models.values.feet import FEET
 from footfall.models.values.obstacle import Obstacle
 from footfall.models.values.planned import Footstep

@@ -12,6 +12,7 @@ from types import CellType, MethodType
 import pytest
 from pydrake.systems.framework import DiagramBuilder, LeafSystem, System
 
+from footfall.diagrams.closed_loop.leaf_systems import leaf_systems
 from footfall.diagrams.closed_loop.tasks import build_task
 from footfall.diagrams.scenario import load_scenario
 
@@ -48,7 +49,9 @@ def test_no_callback_holds_a_system_nor_a_system_what_keeps_it(name: str) -> Non
     """Which the collector would not see."""
     (nothing,) = built(Nothing()).GetSystems()
     fewest = unseen(nothing)
-    systems = build_task(load_scenario(name)).diagram.GetSystems()
+    diagram = build_task(load_scenario(name)).diagram
+    systems = [*diagram.GetSystems(), *(leaf for _, leaf in leaf_systems(diagram))]
+    del diagram
     gc.collect()
     for system in systems:
         assert callbacks_of(system) == [], system.get_name()
@@ -63,7 +66,10 @@ def test_a_diagram_is_freed(name: str) -> None:
     if alone() is not None:
         pytest.skip("this version of Drake keeps every System that is in Python")
     diagram = build_task(load_scenario(name)).diagram
-    kept = [weakref.ref(system) for system in (diagram, *diagram.GetSystems())]
+    leaves = [leaf for _, leaf in leaf_systems(diagram)]
+    everything = (diagram, *diagram.GetSystems(), *leaves)
+    kept = [weakref.ref(system) for system in everything]
+    del leaves, everything
     del diagram
     gc.collect()
     assert [ref() for ref in kept if ref() is not None] == []

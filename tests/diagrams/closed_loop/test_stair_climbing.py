@@ -235,7 +235,7 @@ def test_seeds_differ_in_what_is_seen() -> None:
     for seed in (0, 1):
         task = build_task(load_scenario("stairs-exp1", [f"simulation.seed={seed}"]))
         simulated = simulate(task, 0.5)
-        lidar = task.diagram.GetSubsystemByName("tilting_lidar")
+        lidar = task.system("tilting_lidar")
         context = lidar.GetMyContextFromRoot(simulated.context)
         lines.append(lidar.GetOutputPort("scan").Eval(context))
     assert lines[0].tilt == lines[1].tilt

@@ -7,17 +7,22 @@ import pytest
 from pydrake.math import RigidTransform
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.systems.analysis import Simulator
-from pydrake.systems.framework import Context, DiagramBuilder
+from pydrake.systems.framework import Context
 
-from footfall.diagrams.closed_loop.station import Station, add_station, robot_alone
+from footfall.diagrams.closed_loop.parts import Parts
+from footfall.diagrams.closed_loop.robot_station import (
+    RobotStation,
+    build_robot_station,
+)
+from footfall.diagrams.closed_loop.setup import set_up
 from footfall.diagrams.closed_loop.task_diagram import TaskDiagram
 from footfall.diagrams.closed_loop.tasks import build_task
 from footfall.diagrams.scenario import Scenario, load_scenario
 from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.robots.robot_alone import robot_alone
 from footfall.models.robots.self_distance import SelfDistanceMeter
 from footfall.models.values.contact import Touches
 from footfall.models.values.vector import Vector
-from footfall.systems.ports import eval_abstract, eval_vector
 
 WEIGHT = 62.4 * 9.81
 
@@ -31,9 +36,7 @@ class Standing:
 
     def output(self, system: str, port: str) -> Vector:
         """A vector port of a subsystem."""
-        subsystem = self.task.diagram.GetSubsystemByName(system)
-        context = subsystem.GetMyContextFromRoot(self.root)
-        return eval_vector(subsystem.GetOutputPort(port), context)
+        return np.asarray(self.task.output(f"{system}.{port}", self.root))
 
 
 def stand(seconds: float, *overrides: str) -> Standing:
@@ -108,23 +111,18 @@ def test_torques_asked_for_are_held_and_applied(standing: Standing) -> None:
     np.testing.assert_allclose(applied, command, atol=12.0)
 
 
-def alone(scenario: Scenario) -> tuple[Station, Simulator]:
+def alone(scenario: Scenario) -> tuple[RobotStation, Simulator]:
     """The station without controllers, in the air."""
-    builder = DiagramBuilder()
-    station = add_station(builder, scenario, JVRC1, 0.005)
-    plant = station.plant
-    base = plant.GetBodyByName(JVRC1.base_body)
-    plant.SetDefaultFloatingBaseBodyPose(base, RigidTransform([0.0, 0.0, 2.0]))
+    station = build_robot_station(set_up(scenario, Parts({})))
+    plant, diagram = station.plant, station.station.system
     na = plant.num_actuators(station.instance)
-    diagram = builder.Build()
     simulator = Simulator(diagram)
     root = simulator.get_mutable_context()
-    station.torque.get_input_port().FixValue(
-        station.torque.GetMyContextFromRoot(root), np.zeros(na)
-    )
-    plant.get_desired_state_input_port(station.instance).FixValue(
-        plant.GetMyContextFromRoot(root), np.zeros(2 * na)
-    )
+    base = plant.GetBodyByName(JVRC1.base_body)
+    context = plant.GetMyMutableContextFromRoot(root)
+    plant.SetFreeBodyPose(context, base, RigidTransform([0.0, 0.0, 2.0]))
+    diagram.GetInputPort("torque").FixValue(root, np.zeros(na))
+    diagram.GetInputPort("joint_references").FixValue(root, np.zeros(2 * na))
     return station, simulator
 
 
@@ -163,7 +161,8 @@ def test_everything_is_watched_in_every_task(scenario: str) -> None:
     box = "scene.boxes=[{name: bin, x: -0.5, y: 1.5, size: [0.4, 0.3, 0.5]}]"
     loaded = load_scenario(scenario, [box])
     station, _ = alone(loaded)
-    watched = station.contact_monitor._watched
+    monitor = station.station.system.GetSubsystemByName("contact_monitor")
+    watched = monitor._watched
     scene = loaded.scene
     movers = {f"box/{mover.name}" for mover in scene.movers}
     assert set(watched.solids) == {s.name for s in scene.solids()} | movers
@@ -186,12 +185,8 @@ def test_legs_that_are_pushed_together_meet() -> None:
     )
     standing = stand(0.5, f"task.pushes=[{pushes}]", "robot.x=-1.0")
     task = standing.task
-    monitor = task.diagram.GetSubsystemByName("contact_monitor")
-    touches = eval_abstract(
-        monitor.GetOutputPort("touches"),
-        monitor.GetMyContextFromRoot(standing.root),
-        Touches,
-    )
+    touches = task.output("contact_monitor.touches", standing.root)
+    assert isinstance(touches, Touches)
     met = {frozenset((touch.body, touch.solid)): touch for touch in touches.touches}
     touch = met[frozenset(JVRC1.foot_bodies.values())]
     assert touch.peak_force > 100.0

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from footfall.diagrams.closed_loop.tasks import BUILDERS, build_task
+from footfall.diagrams.closed_loop.leaf_systems import leaf_systems
+from footfall.diagrams.closed_loop.tasks import STATIONS, build_task
 from footfall.diagrams.judge.falls import base_height
 from footfall.diagrams.judge.true_motion import true_motion
 from footfall.diagrams.scenario import ScenarioError, load_scenario
@@ -41,13 +42,14 @@ def test_every_subsystem_has_a_name_of_its_own(name: str) -> None:
     """None that Drake had to make up."""
     diagram = build_task(load_scenario(name)).diagram
     names = [system.get_name() for system in diagram.GetSystems()]
+    names += [leaf.get_name() for station, leaf in leaf_systems(diagram) if station]
     assert not [name for name in names if "@" in name or "/" in name]
     assert len(set(names)) == len(names)
 
 
 def test_every_kind_of_task_has_a_builder() -> None:
     """And every builder is a kind that a scenario may name."""
-    assert set(BUILDERS) == set(TASKS)
+    assert set(STATIONS) == set(TASKS)
 
 
 def test_an_unknown_task_is_bad_input() -> None:

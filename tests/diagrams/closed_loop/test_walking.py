@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 from pydrake.math import RigidTransform
 from pydrake.systems.analysis import Simulator
-from pydrake.systems.framework import Context, DiagramBuilder
+from pydrake.systems.framework import Context
 
-from footfall.diagrams.closed_loop.station import add_station
+from footfall.diagrams.closed_loop.setup import Stand, initial_stand
 from footfall.diagrams.closed_loop.task_diagram import TaskDiagram
 from footfall.diagrams.closed_loop.tasks import build_task
-from footfall.diagrams.closed_loop.walking import Stand, initial_stand
 from footfall.diagrams.scenario import load_scenario
 from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.robots.robot_alone import robot_alone
 from footfall.models.values.planned import Footstep
 from footfall.models.values.vector import Vector
 from footfall.systems.balance.zmp_preview import (
@@ -39,19 +39,17 @@ def stood() -> tuple[TaskDiagram, Context]:
 def output(stood: tuple[TaskDiagram, Context], system: str, port: str) -> Vector:
     """A vector port of a subsystem."""
     task, root = stood
-    subsystem = task.diagram.GetSubsystemByName(system)
-    context = subsystem.GetMyContextFromRoot(root)
-    return eval_vector(subsystem.GetOutputPort(port), context)
+    return np.asarray(task.output(f"{system}.{port}", root))
 
 
 def make_stand(*overrides: str) -> tuple[Stand, Context, object]:
     """The stand, the model's context at it and the model."""
     scenario = load_scenario("stairs-exp1", overrides)
-    station = add_station(DiagramBuilder(), scenario, JVRC1, 0.005)
-    stand = initial_stand(scenario, station)
-    context = station.model.CreateDefaultContext()
-    station.model.SetPositions(context, stand.positions)
-    return stand, context, station.model
+    model = robot_alone(JVRC1)
+    stand = initial_stand(scenario, JVRC1, model)
+    context = model.CreateDefaultContext()
+    model.SetPositions(context, stand.positions)
+    return stand, context, model
 
 
 @pytest.mark.parametrize("overrides", [(), OVERRIDES])
@@ -125,15 +123,15 @@ def test_balance_and_tracking_go_by_the_feet_that_have_landed(
     """Not by the plan's, from which they differ about a touch-down."""
     task, root = stood
     root = root.Clone()
-    landing = task.diagram.GetSubsystemByName("landing_adaptor")
+    landing = task.system("landing_adaptor")
     context = landing.GetMyMutableContextFromRoot(root)
     state = context.get_discrete_state(0).value()
     context.SetDiscreteState(0, state - 0.25)
     adapted = eval_vector(landing.GetOutputPort(port), context)
-    player = task.diagram.GetSubsystemByName("motion_player")
+    player = task.system("motion_player")
     planned = eval_vector(player.GetOutputPort(port), player.GetMyContextFromRoot(root))
     assert (np.abs(adapted - planned) > 0.1).all()
-    subsystem = task.diagram.GetSubsystemByName(system)
+    subsystem = task.system(system)
     seen = eval_vector(
         subsystem.GetInputPort(target), subsystem.GetMyContextFromRoot(root)
     )
@@ -144,7 +142,7 @@ def test_controllers_share_their_period(stood) -> None:
     """Every fast loop ticks at 5 ms; only events ask for abstract state."""
     task, _ = stood
     for name in ("ik_tracker", "landing_adaptor", "zmp_preview"):
-        system = task.diagram.GetSubsystemByName(name)
+        system = task.system(name)
         assert system.GetUniquePeriodicDiscreteUpdateAttribute().period_sec() == 0.005
         assert system.num_abstract_states() == 0
 

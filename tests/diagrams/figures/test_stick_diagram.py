@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from matplotlib.patches import Polygon, Rectangle
 
-from footfall.diagrams.closed_loop.station import robot_alone
 from footfall.diagrams.figures.crossing_data import read_crossings
 from footfall.diagrams.figures.stick_diagram import STICKS, leg_sticks, stick_diagram
 from footfall.diagrams.run_data import read_run_data
 from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.robots.robot_alone import robot_alone
 from footfall.systems.planning.whole_body.whole_body_plan import planning_body
 
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from footfall.diagrams.closed_loop.station import robot_alone
 from footfall.diagrams.judge.self_distance import nearest_approach
 from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.robots.robot_alone import robot_alone
 from footfall.models.robots.self_distance import SelfDistanceMeter
 from footfall.models.values.vector import Vector
 

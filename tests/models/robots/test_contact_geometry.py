@@ -14,7 +14,7 @@ from pydrake.multibody.tree import PrismaticJoint, SpatialInertia
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import DiagramBuilder
 
-from footfall.diagrams.closed_loop.station import DRAKE_CONTACT_MODELS
+from footfall.diagrams.closed_loop.robot_station import DRAKE_CONTACT_MODELS
 from footfall.models.robots.contact_geometry import (
     CONTACT_MODELS,
     PLATE_RECESS,

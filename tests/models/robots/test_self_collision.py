@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from pydrake.multibody.plant import MultibodyPlant
 
-from footfall.diagrams.closed_loop.station import robot_alone
 from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.robots.robot_alone import robot_alone
 from footfall.models.robots.self_collision import NEIGHBOURS, joints_between
 from footfall.models.robots.self_distance import SelfDistance, SelfDistanceMeter
 

@@ -18,7 +18,7 @@ from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import Context, DiagramBuilder
 from pydrake.systems.primitives import ConstantVectorSource
 
-from footfall.diagrams.closed_loop.station import DRAKE_CONTACT_MODELS
+from footfall.diagrams.closed_loop.robot_station import DRAKE_CONTACT_MODELS
 from footfall.models.robots.contact_geometry import CONTACT_MODELS, ContactModel
 from footfall.models.robots.jvrc1 import JVRC1
 from footfall.models.robots.robot import JointGains

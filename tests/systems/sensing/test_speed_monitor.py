@@ -5,8 +5,8 @@ import pytest
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import Context
 
-from footfall.diagrams.closed_loop.station import robot_alone
 from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.robots.robot_alone import robot_alone
 from footfall.models.values.vector import Vector
 from footfall.systems.ports import eval_vector
 from footfall.systems.sensing.speed_monitor import SpeedMonitor, actuated_velocities

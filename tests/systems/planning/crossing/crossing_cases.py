@@ -6,8 +6,8 @@ import numpy as np
 from pydrake.math import RigidTransform
 from pydrake.systems.framework import Context
 
-from footfall.diagrams.closed_loop.station import robot_alone
 from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.robots.robot_alone import robot_alone
 from footfall.models.values.feet import Foot
 from footfall.models.values.obstacle import Feasibility, KeyConfiguration, Obstacle
 from footfall.models.values.planned import Footstep
