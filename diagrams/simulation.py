@@ -8,8 +8,8 @@ from pathlib import Path
 from time import perf_counter
 from typing import TypeAlias
 
-from pydrake.systems.analysis import Simulator
-from pydrake.systems.framework import Context
+from pydrake.systems.analysis import Simulator, SimulatorStatus
+from pydrake.systems.framework import Context, Diagram, EventStatus
 
 from footfall.diagrams.closed_loop.task_diagram import TaskDiagram
 from footfall.diagrams.judge.crossing_judge import obstacle_map_errors
@@ -48,6 +48,9 @@ killed loses, but for a `SLICE`."""
 TRACEBACK_FILE = "traceback.txt"
 Progress: TypeAlias = Callable[[float, str], None]
 """Is told the simulated time, s, and what the executive is doing."""
+Until: TypeAlias = Callable[[Context], str | None]
+"""Is asked after every step of the plant, with the diagram's context, whether to stop,
+and says why in a few words."""
 
 
 @dataclass(frozen=True)
@@ -74,6 +77,7 @@ def run_task(
     progress: Progress | None = None,
     realtime_rate: float = 0.0,
     while_judging: Callable[[], AbstractContextManager[object]] = nullcontext,
+    until: Until | None = None,
 ) -> Summary:
     """Simulates a task and writes its run folder, however the simulation stops.
 
@@ -89,6 +93,7 @@ def run_task(
             can.
         while_judging: held from the end of the simulation until the folder is whole;
             where Ctrl-C must not break that off it can put it off.
+        until: ends the run when it gives a reason; the outcome is "interrupted".
 
     Raises:
         FileExistsError: the folder exists and is not empty.
@@ -102,6 +107,7 @@ def run_task(
         progress,
         realtime_rate,
         folder / SIGNALS_FOLDER,
+        until,
     )
     assert simulated.stream is not None
     with while_judging():
@@ -126,6 +132,7 @@ def simulate(
     progress: Progress | None = None,
     realtime_rate: float = 0.0,
     signals_folder: Path | None = None,
+    until: Until | None = None,
 ) -> Simulated:
     """Simulates until the task is over, the robot fell, time is up or Ctrl-C.
 
@@ -144,11 +151,15 @@ def simulate(
             can.
         signals_folder: where the signals go every `FLUSH_PERIOD`; None keeps them in
             memory.
+        until: ends the simulation when it gives a reason.
 
     Raises:
         RecordingError: that folder cannot be written to any more.
     """
     simulator = Simulator(task.diagram)
+    user = _Monitor(task.diagram, until)
+    if until is not None:
+        simulator.set_monitor(user)
     simulator.set_target_realtime_rate(realtime_rate)
     context = simulator.get_mutable_context()
     stream = task.signals.stream(context, signals_folder) if signals_folder else None
@@ -163,11 +174,11 @@ def simulate(
         simulator.Initialize()
         while context.get_time() < end - 1e-9:
             slices += 1
-            until = min(slices * SLICE, end)
+            boundary = min(slices * SLICE, end)
             if finished and not fell:
-                _advance_to_rest(simulator, until, watch, resting)
+                _advance_to_rest(simulator, boundary, watch, resting)
             else:
-                simulator.AdvanceTo(until)
+                simulator.AdvanceTo(boundary)
             now, status = context.get_time(), task.task_status(context)
             if stream and now > flushed + FLUSH_PERIOD - 1e-9:
                 flushed = now
@@ -175,6 +186,9 @@ def simulate(
                     stream.flush()
             if progress is not None:
                 progress(now, status.activity)
+            if user.reason is not None:
+                stop, reason = "stopped", f"stopped at {now:.3f} s: {user.reason}"
+                break
             if fell:
                 lying.look(now, watch.lies())
                 if lying.done():
@@ -204,6 +218,21 @@ def simulate(
     return Simulated(context, stop, reason, perf_counter() - start, error, stream)
 
 
+class _Monitor:
+    """Asks the user after every step, and keeps what he says."""
+
+    def __init__(self, diagram: Diagram, until: Until | None) -> None:
+        self.reason: str | None = None
+        self._diagram, self._until = diagram, until
+
+    def __call__(self, root_context: Context) -> EventStatus:
+        if self._until is not None and self.reason is None:
+            self.reason = self._until(root_context)
+        if self.reason is None:
+            return EventStatus.DidNothing()
+        return EventStatus.ReachedTermination(self._diagram, self.reason)
+
+
 @contextmanager
 def _recorded(folder: Path, time: float) -> Iterator[None]:
     """Says of a folder that cannot be written to which it is, and what became of it."""
@@ -222,7 +251,9 @@ def _advance_to_rest(
     """Simulates in steps of `LOOK`, as long as the robot has not rested enough."""
     context = simulator.get_context()
     while context.get_time() < until - 1e-9 and not resting.done():
-        simulator.AdvanceTo(min(context.get_time() + LOOK, until))
+        status = simulator.AdvanceTo(min(context.get_time() + LOOK, until))
+        if status.reason() == SimulatorStatus.ReturnReason.kReachedTerminationCondition:
+            return
         resting.look(context.get_time(), watch.rests())
 
 
@@ -236,7 +267,7 @@ def summarize(task: TaskDiagram, scenario: Scenario, simulated: Simulated) -> Su
         evidence = gather(task, simulated.context, simulated.stop, simulated.reason)
         judgement, perception = judge(evidence), _perception(task, evidence)
     else:
-        interrupted = simulated.stop == "interrupted"
+        interrupted = simulated.stop in ("interrupted", "stopped")
         outcome: Outcome = "interrupted" if interrupted else "cut"
         judgement = Judgement(outcome=outcome, reason=simulated.reason)
         perception = None

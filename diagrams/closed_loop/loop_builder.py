@@ -14,7 +14,7 @@ from footfall.diagrams.closed_loop.parts import (
     PartError,
     describe,
     input_ports,
-    list_ports,
+    model_value,
     output_ports,
 )
 from footfall.diagrams.closed_loop.station_builder import Station, connect_stations
@@ -118,7 +118,9 @@ class LoopBuilder:
             if system.HasInputPort(wanted):
                 break
         else:
-            raise PartError(f"no open input {target!r}")
+            raise PartError(
+                f"no input {target!r}; open are: {self._open_inputs() or 'none'}"
+            )
         asked = system.GetInputPort(wanted)
         if self.builder.IsConnectedOrExported(asked):
             raise PartError(f"input {target!r} is connected already")
@@ -157,7 +159,7 @@ class LoopBuilder:
             self.signals.add_vector(name or port, output, named, unit, SIGNAL_PERIOD)
             return
         try:
-            to_json(output.Allocate().get_value())
+            to_json(model_value(output))
         except TypeError as error:
             raise PartError(f"log: {port}: {describe(output)}: {error}") from error
         self.signals.add_value(name or port, output, VALUE_PERIOD)
@@ -171,19 +173,25 @@ class LoopBuilder:
         Raises:
             PartError: an input is connected to nothing.
         """
-        for system in self.builder.GetSystems():
-            for port in input_ports(system):
-                if not self.builder.IsConnectedOrExported(port):
-                    part = port.get_name()
-                    if "." not in part:
-                        part = f"{system.get_name()}.{part}"
-                    given = list_ports(
-                        p for p in input_ports(system) if "." not in p.get_name()
-                    )
-                    raise PartError(
-                        f"input {part!r} ({describe(port)}) is connected to nothing; "
-                        f"connect it in `extend`, or give it a name of: {given}"
-                    )
+        if unconnected := self._open_inputs():
+            raise PartError(
+                f"connected to nothing: {unconnected}; connect it in `extend`, or name "
+                "it as ours is named"
+            )
         diagram = self.builder.Build()
         diagram.set_name(name)
         return diagram
+
+    def _open_inputs(self) -> str:
+        """Lists the inputs that are connected to nothing, each with what it takes."""
+        ports = [
+            (port.get_name(), port, system.get_name())
+            for system in self.builder.GetSystems()
+            for port in input_ports(system)
+            if not self.builder.IsConnectedOrExported(port)
+        ]
+        named = [
+            f"{name if '.' in name else f'{system}.{name}'} ({describe(port)})"
+            for name, port, system in ports
+        ]
+        return ", ".join(named)

@@ -2,6 +2,7 @@
 
 import difflib
 from collections.abc import Callable, Iterable, Mapping
+from typing import Any
 
 from pydrake.systems.framework import InputPort, OutputPort, PortDataType, System
 
@@ -85,6 +86,18 @@ def output_ports(system: System) -> list[OutputPort]:
     return [system.get_output_port(i) for i in range(system.num_output_ports())]
 
 
+def owner(port: InputPort | OutputPort) -> System:
+    """Finds the System that a port belongs to."""
+    system: System = port.get_system()  # type: ignore[assignment]
+    return system
+
+
+def model_value(port: OutputPort) -> object:
+    """Makes a value of the type that an abstract output carries."""
+    value: Any = port.Allocate()
+    return value.get_value()
+
+
 def describe(port: InputPort | OutputPort) -> str:
     """Says what a port carries: "vector of 3", "abstract MotionPlan"."""
     if port.get_data_type() == PortDataType.kVectorValued:
@@ -95,9 +108,9 @@ def describe(port: InputPort | OutputPort) -> str:
 def _carried(port: InputPort | OutputPort) -> type:
     """Finds the type that an abstract port carries, by its model value."""
     if isinstance(port, OutputPort):
-        return type(port.Allocate().get_value())
-    system = port.get_system()
-    return type(system.AllocateInputAbstract(port).get_value())
+        return type(model_value(port))
+    value: Any = owner(port).AllocateInputAbstract(port)
+    return type(value.get_value())
 
 
 def _fits(source: OutputPort | InputPort, target: OutputPort | InputPort) -> bool:

@@ -17,6 +17,7 @@ from footfall.diagrams.closed_loop.parts import (
     input_ports,
     list_ports,
     output_ports,
+    owner,
     require_output,
 )
 
@@ -171,7 +172,7 @@ def connect_stations(builder: DiagramBuilder, stations: Iterable[Station]) -> No
             if "." in name:
                 continue
             if name in signals:
-                giver = signals[name].get_system().get_name()
+                giver = owner(signals[name]).get_name()
                 raise PartError(
                     f"signal {name!r}: given by {giver} and by {system.get_name()}"
                 )

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 from pydrake.geometry import Meshcat, SceneGraph
 from pydrake.multibody.plant import MultibodyPlant
@@ -59,7 +60,7 @@ class TaskDiagram:
         """
         return find_system(self.diagram, name)
 
-    def output(self, name: str, root_context: Context) -> object:
+    def output(self, name: str, root_context: Context) -> Any:
         """Evaluates any output port of the closed loop.
 
         Args:

@@ -1,6 +1,7 @@
 """From a scenario to the closed loop that it asks for."""
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import NamedTuple
 
 from pydrake.geometry import Meshcat
@@ -88,17 +89,16 @@ def build_task(
     parts.fix("robot_station", "a run is judged by it; replace one of its parts")
     setup = set_up(scenario, parts)
     true = build_robot_station(setup, meshcat)
+    planning, perception = STATIONS[kind]
+    makers: dict[str, Callable[[], Station]] = {
+        "planning": partial(planning, setup),
+        "walking_control": partial(build_walking_control, setup),
+    }
+    if perception is not None:
+        makers = {"perception": partial(perception, setup, true)} | makers
     stations = [true.station]
-    make_planning, make_perception = STATIONS[kind]
-    if make_perception is not None:
-        stations.append(
-            choose_station("perception", parts, lambda: make_perception(setup, true))
-        )
-    for name, make in (
-        ("planning", make_planning),
-        ("walking_control", build_walking_control),
-    ):
-        stations.append(choose_station(name, parts, lambda make=make: make(setup)))
+    for name, make in makers.items():
+        stations.append(choose_station(name, parts, make))
     parts.check_all_known()
 
     loop = LoopBuilder(stations)

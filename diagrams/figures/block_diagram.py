@@ -9,7 +9,7 @@ from typing import NamedTuple
 from pydrake.systems.framework import Diagram, PortDataType, System
 
 from footfall.diagrams.closed_loop.leaf_systems import leaf_systems, leaf_wires
-from footfall.diagrams.closed_loop.parts import input_ports, output_ports
+from footfall.diagrams.closed_loop.parts import input_ports, output_ports, owner
 from footfall.systems.signal_log import SignalLog
 from footfall.systems.value_log_sink import ValueLogSink
 
@@ -61,14 +61,14 @@ def topology(diagram: Diagram) -> tuple[list[Block], list[Wire]]:
     """
     wires = [
         Wire(
-            source.get_system().get_name(),
+            owner(source).get_name(),
             source.get_name(),
-            target.get_system().get_name(),
+            owner(target).get_name(),
             target.get_name(),
             source.get_data_type() == PortDataType.kAbstractValued,
         )
         for source, target in leaf_wires(diagram)
-        if not _is_log(target.get_system())
+        if not _is_log(owner(target))
     ]
     used_inputs = {(wire.target, wire.input) for wire in wires}
     used_outputs = {(wire.source, wire.output) for wire in wires}

@@ -28,9 +28,10 @@ from footfall.models.values.vector import Vector
 from footfall.systems.planning.crossing.report import CrossingMotion
 
 Stop: TypeAlias = Literal[
-    "finished", "infeasible", "fell", "time limit", "interrupted", "error"
+    "finished", "infeasible", "fell", "time limit", "stopped", "interrupted", "error"
 ]
-"""Why a simulation stopped; the executive said "finished" or "infeasible"."""
+"""Why a simulation stopped; the executive said "finished" or "infeasible", the user
+"stopped", by a condition of his own, or "interrupted", by Ctrl-C."""
 
 
 @dataclass(frozen=True)

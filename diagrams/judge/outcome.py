@@ -117,7 +117,7 @@ def judge(evidence: Evidence) -> Judgement:
     - "fell": at any time (see `find_fall`).
     - "infeasible": a planner refused.
     - "timed_out": the time was up.
-    - "interrupted": the user ended it.
+    - "interrupted": the user ended it, by Ctrl-C or by a condition of his own.
     - "cut": the simulation broke off, or its process was killed.
 
     The reason of a run that did not finish also names the rules that it broke.
@@ -197,6 +197,7 @@ def _verdict(
 STOPPED: dict[Stop, Outcome] = {
     "infeasible": "infeasible",
     "time limit": "timed_out",
+    "stopped": "interrupted",
     "interrupted": "interrupted",
     "error": "cut",
 }

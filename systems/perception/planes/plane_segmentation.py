@@ -4,7 +4,8 @@ Stair paper (Zhang, Caron, Nakamura 2016), Sec. 4 and Table 1. Every stage is a 
 function whose result can be looked at; `segment_planes` calls them in turn.
 """
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from time import perf_counter
 
 import numpy as np
@@ -23,6 +24,8 @@ from footfall.systems.perception.planes.planes import (
     FittedPlane,
     Patch,
     assign_support,
+    bound_patch,
+    fit_plane,
     make_patches,
     ransac_planes,
 )
@@ -253,6 +256,78 @@ def find_treads(
     return chosen, yaw, treads, floor_below(patches, chosen, limits)
 
 
+def make_segmentation(
+    patches: tuple[Patch, ...],
+    cloud: Vector,
+    params: PlaneSegmenterParams,
+    viewpoint: Vector | None,
+    R_GW: Vector,
+) -> PlaneSegmentation:
+    """Finds the staircase among the patches and turns all of them into W.
+
+    Args:
+        patches: bounded pieces of level plane, in G.
+        cloud: finite points in G, (n, 3), m.
+        params: parameters.
+        viewpoint: where they were seen from in G, (3,), m.
+        R_GW: rotation from W into G, (3, 3).
+    """
+    chosen, yaw, treads, floor = find_treads(patches, cloud, params, viewpoint)
+    segments = {i: patch_segment(patch, R_GW) for i, patch in enumerate(patches)}
+    for i, tread in zip(chosen, treads, strict=True):
+        segments[i] = tread_segment(tread, yaw, patches[i].area, R_GW)
+    if floor is not None and chosen:
+        segments[floor] = patch_segment(patches[floor], R_GW, yaw)
+    staircase = Staircase(
+        treads=tuple(segments[i] for i in chosen),
+        floor=None if floor is None else segments[floor],
+    )
+    return PlaneSegmentation(
+        planes=tuple(sorted(segments.values(), key=lambda item: -item.area)),
+        staircase=staircase,
+    )
+
+
+def segment_supports(
+    supports: Sequence[Vector],
+    points: Vector,
+    gravity: Vector,
+    params: PlaneSegmenterParams,
+    viewpoint: Vector | None = None,
+) -> PlaneSegmentation:
+    """Segments a cloud whose planes were found by any other method.
+
+    Each support is fitted with a plane by least squares; those that are too steep are
+    left out, the others are bounded, and the staircase is found among them.
+
+    Args:
+        supports: the points of each plane in W, (n_i, 3), m.
+        points: the whole cloud in W, (n, 3), m, in which the treads' edges are sought.
+        gravity: gravity in W, (3,), any length: it points down.
+        params: parameters.
+        viewpoint: where the cloud was seen from in W, (3,), m.
+
+    Raises:
+        ValueError: gravity has no direction.
+    """
+    R_GW = gravity_aligned_rotation(gravity)
+    patches = []
+    for support in supports:
+        local = usable_points(np.asarray(support, dtype=np.float64)) @ R_GW.T
+        if len(local) < 3:
+            continue
+        point, normal = fit_plane(local)
+        if not filter_slopes(normal[None], DOWN, params.slope_tolerance)[0]:
+            continue
+        plane = FittedPlane(point, normal, np.arange(len(local)))
+        area = params.voxel_size**2 * len(voxelize(local, params.voxel_size).keys)
+        if (patch := bound_patch(plane, local, area)) is not None:
+            patches.append(patch)
+    cloud = usable_points(np.asarray(points, dtype=np.float64)) @ R_GW.T
+    eye = None if viewpoint is None else R_GW @ viewpoint
+    return make_segmentation(tuple(patches), cloud, params, eye, R_GW)
+
+
 def segment_planes(
     points: Vector,
     gravity: Vector,
@@ -301,22 +376,9 @@ def segment_planes(
     if params.staircase_from == "chain":
         patches = join_parts(patches, params.stairs)
     lap("boundaries")
-    chosen, yaw, treads, floor = find_treads(patches, cloud, params, eye)
-    segments = {i: patch_segment(patch, R_GW) for i, patch in enumerate(patches)}
-    for i, tread in zip(chosen, treads, strict=True):
-        segments[i] = tread_segment(tread, yaw, patches[i].area, R_GW)
-    if floor is not None and chosen:
-        segments[floor] = patch_segment(patches[floor], R_GW, yaw)
-    staircase = Staircase(
-        treads=tuple(segments[i] for i in chosen),
-        floor=None if floor is None else segments[floor],
-    )
+    segmentation = make_segmentation(patches, cloud, params, eye, R_GW)
     lap("staircase")
-    segmentation = PlaneSegmentation(
-        planes=tuple(sorted(segments.values(), key=lambda item: -item.area)),
-        staircase=staircase,
-        times_ms=tuple(times),
-    )
+    segmentation = replace(segmentation, times_ms=tuple(times))
     return segmentation, Stages(
         R_GW, cloud, voxels, supervoxels, clusters, planes, patches
     )

@@ -48,8 +48,9 @@ class PlaneSegmenter(LeafSystem):
             ValueError: a parameter makes no sense.
         """
         super().__init__()
-        self._params = params or PlaneSegmenterParams()
-        self._params.validate()
+        self.params = params or PlaneSegmenterParams()
+        """What it was made with."""
+        self.params.validate()
         self._sole = sole
         self._cloud = self.DeclareAbstractInputPort(
             "cloud", AbstractValue.Make(PointCloud(0))
@@ -76,5 +77,16 @@ class PlaneSegmenter(LeafSystem):
             if self._viewpoint.HasValue(context)
             else None
         )
-        found, _ = segment_planes(points, gravity, self._params, self._sole, viewpoint)
-        segmentation.set_value(found)
+        segmentation.set_value(self.segment(points, gravity, viewpoint))
+
+    def segment(
+        self, points: Vector, gravity: Vector, viewpoint: Vector | None
+    ) -> PlaneSegmentation:
+        """Segments a cloud; a subclass may do it its own way.
+
+        Args:
+            points: the cloud in W, (n, 3), m; not all need be finite.
+            gravity: gravity in W, (3,), any length: it points down.
+            viewpoint: p_WSensor, (3,), m, None where it is unknown.
+        """
+        return segment_planes(points, gravity, self.params, self._sole, viewpoint)[0]
