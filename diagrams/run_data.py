@@ -14,7 +14,7 @@ from footfall.diagrams.judge.true_motion import TrueMotion, true_motion
 from footfall.diagrams.signal_names import MOVERS_SIGNAL, STATE_SIGNAL
 from footfall.diagrams.signals import Run, RunError, load_run
 from footfall.models.robots.robot_loader import add_robot
-from footfall.models.scenes.staircase import Tread
+from footfall.models.scenes.tread import Tread
 from footfall.models.values.feet import Foot
 from footfall.models.values.vector import Vector
 

@@ -29,7 +29,6 @@ from footfall.models.robots.robot_errors import RobotError
 from footfall.models.scenes.room_obstacles import place_boxes
 from footfall.models.scenes.scene import SceneParams
 from footfall.models.scenes.solids import upright_pose
-from footfall.models.scenes.staircase import StaircaseParams
 from footfall.models.values.validation import (
     MAX_SEED,
     Parameters,
@@ -241,7 +240,7 @@ class Scenario(Parameters):
         """
         super().validate()
         self._check_shared()
-        model, room, stairs = self.robot.model(), self.scene.room, self.scene.staircase
+        model, room = self.robot.model(), self.scene.room
         start = upright_pose(self.robot.x, self.robot.y)
         p_RStart = room.X_WR().inverse().multiply(start).translation()
         if abs(p_RStart[0]) > room.length / 2 or abs(p_RStart[1]) > room.width / 2:
@@ -253,10 +252,12 @@ class Scenario(Parameters):
             self.parameters.footstep_planner.validate(model.sole)
         except ValueError as error:
             raise ValueError(f"parameters.footstep_planner.{error}") from None
-        if stairs is not None:
-            self._check_width(stairs, model)
-        elif self.task.kind == "stair_climbing":
-            raise ValueError(f"scene.staircase: the task {self.task.kind} needs one")
+        self._check_widths(model)
+        if self.task.kind == "stair_climbing" and not self.scene.treads():
+            raise ValueError(
+                f"scene.staircase: the task {self.task.kind} needs one, or flights or "
+                "models that have treads"
+            )
         if self.task.mode != "dynamic" and self.task.kind in ONLY_DYNAMIC:
             raise ValueError(
                 f"task.mode: {self.task.kind} is only done dynamic, "
@@ -298,13 +299,17 @@ class Scenario(Parameters):
         except ValueError as error:
             raise ValueError(f"parameters.{error}") from None
 
-    def _check_width(self, stairs: StaircaseParams, model: RobotModel) -> None:
+    def _check_widths(self, model: RobotModel) -> None:
         soles = 4.0 * model.sole.half_width
-        if stairs.width < soles:
-            raise ValueError(
-                f"scene.staircase.width: must be at least {soles:g} m, two soles of "
-                f"{model.name} abreast, got {stairs.width:g} m"
-            )
+        widths = [(f"flights[{i}]", f.width) for i, f in enumerate(self.scene.flights)]
+        if self.scene.staircase is not None:
+            widths.insert(0, ("staircase", self.scene.staircase.width))
+        for path, width in widths:
+            if width < soles:
+                raise ValueError(
+                    f"scene.{path}.width: must be at least {soles:g} m, two soles of "
+                    f"{model.name} abreast, got {width:g} m"
+                )
 
 
 def load_scenario(name_or_path: str | Path, overrides: Sequence[str] = ()) -> Scenario:
@@ -328,10 +333,12 @@ def load_scenario(name_or_path: str | Path, overrides: Sequence[str] = ()) -> Sc
         data = {key: value for key, value in data.items() if str(key)[:1] != "_"}
         data.setdefault("name", stem)
         name_robot(data, folder)
+        name_models(data, folder)
         check(data, Scenario)
         for override in overrides:
             applied.append((_override(data, override), override))
             name_robot(data, Path.cwd())
+            name_models(data, Path.cwd())
             check(data, Scenario)
         expand_robot(data, Path(name_or_path).absolute())
         scenario: Scenario = yaml_load_typed(  # type: ignore[no-untyped-call]
@@ -348,6 +355,20 @@ def load_scenario(name_or_path: str | Path, overrides: Sequence[str] = ()) -> Sc
     except RobotError as error:
         raise ScenarioError(f"{label}: robot: {error.one_line}") from None
     return scenario
+
+
+def name_models(data: Mapping, folder: Path) -> None:
+    """Writes the paths of the scene's models in full.
+
+    Args:
+        data: of a scenario; changed in place.
+        folder: that the paths start in.
+    """
+    scene = data.get("scene")
+    models = scene.get("models") if isinstance(scene, dict) else None
+    for model in models if isinstance(models, list) else ():
+        if isinstance(model, dict) and isinstance(model.get("file"), str):
+            model["file"] = str(folder / model["file"])
 
 
 def place_clutter(scenario: Scenario) -> Scenario:

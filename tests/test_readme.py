@@ -11,6 +11,8 @@ from footfall.diagrams.figures.block_diagram import topology
 from footfall.diagrams.judge.summary import Summary
 from footfall.diagrams.scenario import load_scenario
 from footfall.diagrams.shipped import list_scenarios
+from tests.models.scenes.scene_meshes import profile_steps
+from tests.models.scenes.test_scene_model import SDF
 
 README = Path(__file__).resolve().parents[1] / "README.md"
 TEXT = README.read_text(encoding="utf-8")
@@ -46,12 +48,17 @@ def test_every_scenario_is_listed() -> None:
     assert {name for name in names if f"| `{name}` |" not in TEXT} == set()
 
 
-def test_the_scenario_that_is_shown_can_be_used(tmp_path: Path) -> None:
-    """A whole scenario, as the README says."""
-    (text,) = re.findall(r"^```yaml\n(.*?)^```", TEXT, flags=re.MULTILINE | re.DOTALL)
-    path = tmp_path / "mine.yaml"
-    path.write_text(text, encoding="utf-8")
-    assert load_scenario(path).scene.treads()
+def test_the_scenarios_that_are_shown_can_be_used(tmp_path: Path) -> None:
+    """Whole scenarios, as the README says; beside them the files that they name."""
+    stairs = profile_steps([0.17] * 3, [0.28] * 3)
+    stairs.apply_scale(1000.0).export(tmp_path / "stairs.stl")
+    (tmp_path / "handrail.sdf").write_text(SDF, encoding="utf-8")
+    texts = re.findall(r"^```yaml\n(.*?)^```", TEXT, flags=re.MULTILINE | re.DOTALL)
+    assert len(texts) == 2
+    for text in texts:
+        path = tmp_path / "mine.yaml"
+        path.write_text(text, encoding="utf-8")
+        assert len(load_scenario(path).scene.treads()) > 2
 
 
 def test_the_block_diagram_is_the_present_one() -> None:

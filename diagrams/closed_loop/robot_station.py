@@ -20,7 +20,6 @@ from footfall.models.robots.contact_geometry import ContactModel, is_sole
 from footfall.models.robots.robot_alone import robot_weight
 from footfall.models.robots.robot_loader import add_robot
 from footfall.models.scenes.mover import add_movers
-from footfall.models.scenes.solid_names import is_ground
 from footfall.models.scenes.solids import add_solids
 from footfall.models.values.feet import FEET
 from footfall.models.values.vector import Vector
@@ -124,7 +123,7 @@ def build_robot_station(setup: Setup, meshcat: Meshcat | None = None) -> RobotSt
                 instance,
                 tuple(robot.foot_bodies[foot] for foot in FEET),
                 is_sole,
-                is_ground,
+                scenario.scene.ground_names(),
             ),
             step,
             robot_weight(model),

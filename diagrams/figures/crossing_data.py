@@ -14,7 +14,6 @@ from footfall.diagrams.judge.crossing_judge import SAME
 from footfall.diagrams.run_data import RunData
 from footfall.diagrams.signal_names import PLAN_SIGNAL
 from footfall.models.robots.robot_alone import robot_alone
-from footfall.models.scenes.solid_names import is_box
 from footfall.models.scenes.solids import Box
 from footfall.models.values.feet import Foot
 from footfall.models.values.obstacle import KeyConfiguration, Obstacle, across
@@ -192,7 +191,7 @@ class CrossingData:
         boxes = [
             solid
             for solid in self.data.run.scenario.scene.solids()
-            if is_box(solid.name)
+            if isinstance(solid, Box) and solid.role == "box"
         ]
         distances = [
             float(np.linalg.norm(box.X_WB.translation()[:2] - obstacle.center))

@@ -114,11 +114,7 @@ def render_states(
     solids = scenario.scene.solids()
     add_solids(
         plant,
-        (
-            solid
-            for solid in solids
-            if not solid.name.startswith("room/") or solid.name == "room/floor"
-        ),
+        (solid for solid in solids if solid.role != "wall"),
     )
     robot = scenario.robot.model()
     instance = add_robot(plant, scene_graph, robot)

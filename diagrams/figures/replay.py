@@ -52,9 +52,7 @@ def replay_html(
     """
     builder = DiagramBuilder()
     plant, scene_graph = AddMultibodyPlantSceneGraph(builder, time_step=0.0)
-    add_solids(
-        plant, (solid for solid in scene.solids() if not _hides_the_view(solid.name))
-    )
+    add_solids(plant, (solid for solid in scene.solids() if solid.role != "wall"))
     instance = add_robot(plant, scene_graph, robot)
     moving = add_movers(plant, scene.movers)
     plant.Finalize()
@@ -113,10 +111,6 @@ def replay_run(folder: Path) -> Path:
     with whole_file(path) as partial:
         partial.write_text(html, encoding="utf-8")
     return path
-
-
-def _hides_the_view(solid: str) -> bool:
-    return solid.startswith("room/") and solid != "room/floor"
 
 
 def _place_camera(meshcat: Meshcat, positions: Vector) -> None:

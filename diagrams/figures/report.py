@@ -38,7 +38,7 @@ from footfall.diagrams.judge.measures import contact_intervals
 from footfall.diagrams.run_data import RunData, read_run_data
 from footfall.diagrams.signal_files import whole_file
 from footfall.diagrams.signal_names import POLYGON_SIGNAL
-from footfall.models.scenes.staircase import Tread
+from footfall.models.scenes.tread import Tread
 from footfall.models.values.feet import FEET, Foot
 from footfall.models.values.vector import Vector
 

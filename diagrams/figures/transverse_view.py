@@ -6,7 +6,7 @@ from matplotlib.patches import Polygon
 
 from footfall.diagrams.run_data import RunData
 from footfall.diagrams.signal_names import POLYGON_SIGNAL
-from footfall.models.scenes.staircase import Tread
+from footfall.models.scenes.tread import Tread
 from footfall.models.values.vector import Vector
 
 STAIR, AREA, COM = "#a0703c", "#1c7ed6", "#e03131"

@@ -17,8 +17,8 @@ from footfall.diagrams.judge.self_distance import NearestApproach, nearest_appro
 from footfall.diagrams.judge.true_motion import TrueMotion, true_motion
 from footfall.diagrams.signal_names import STATE_SIGNAL
 from footfall.models.robots.self_distance import SelfDistanceMeter
-from footfall.models.scenes.solid_names import is_box, is_ground
-from footfall.models.scenes.staircase import Tread
+from footfall.models.scenes.solids import GROUND, Box
+from footfall.models.scenes.tread import Tread
 from footfall.models.values.contact import Touch, Touches
 from footfall.models.values.obstacle import ObstacleMap
 from footfall.models.values.perceived import PlaneSegmentation, Staircase
@@ -124,7 +124,7 @@ def gather(
         treads=task.scene.treads(),
         limits=robot_limits(task.plant, task.robot_instance),
         friction=min(
-            solid.friction for solid in task.scene.solids() if is_ground(solid.name)
+            solid.friction for solid in task.scene.solids() if solid.role in GROUND
         ),
         goal=task.goal,
         touches=touches[-1].touches if touches else None,
@@ -158,7 +158,11 @@ def _crossing(
     maps = [value for value in values if isinstance(value, ObstacleMap)]
     if not maps:
         return None
-    boxes = tuple(solid for solid in task.scene.solids() if is_box(solid.name))
+    boxes = tuple(
+        solid
+        for solid in task.scene.solids()
+        if isinstance(solid, Box) and solid.role == "box"
+    )
     return CrossingEvidence(
         boxes,
         box_clearances(task.plant, task.robot_instance, task.robot, time, state, boxes),

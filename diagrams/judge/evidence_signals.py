@@ -6,7 +6,7 @@ import pandas as pd
 from footfall.diagrams.judge.evidence import Evidence
 from footfall.diagrams.judge.falls import Fall, find_fall
 from footfall.diagrams.judge.ground import Ground, end_ground
-from footfall.models.scenes.staircase import Tread
+from footfall.models.scenes.tread import Tread
 from footfall.models.values.feet import Foot
 from footfall.models.values.vector import Vector
 

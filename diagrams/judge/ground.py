@@ -7,7 +7,7 @@ import numpy as np
 import shapely  # type: ignore[import-untyped]
 from pydrake.math import RigidTransform
 
-from footfall.models.scenes.staircase import Tread
+from footfall.models.scenes.tread import Tread
 from footfall.models.values.geometry import rectangle_corners_world
 from footfall.models.values.vector import Vector
 
@@ -30,9 +30,13 @@ class Ground:
     """z out of it, origin at the middle of the rectangle."""
     size: Vector | None = None
     """Lengths of the rectangle along x and y, (2,), m; None where it has no end."""
+    corners: Vector | None = None
+    """Where it is no rectangle its outline in W seen from above, (n, 2), m."""
 
     def outline(self) -> shapely.Polygon | None:
-        """Computes the rectangle in W seen from above; None where it has no end."""
+        """Computes the outline in W seen from above; None where it has no end."""
+        if self.corners is not None:
+            return shapely.Polygon(self.corners)
         if self.size is None:
             return None
         return shapely.Polygon(rectangle_corners_world(self.X_WR, self.size)[:, :2])
@@ -44,7 +48,7 @@ FLOOR = Ground("the floor", RigidTransform())
 
 def tread_ground(tread: Tread, name: str) -> Ground:
     """Makes ground of a tread, called by a name."""
-    return Ground(name, tread.X_WR, tread.size)
+    return Ground(name, tread.X_WR, tread.size, tread.outline)
 
 
 def end_ground(treads: Sequence[Tread]) -> Ground:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 import shapely  # type: ignore[import-untyped]
 
-from footfall.models.scenes.staircase import Tread
+from footfall.models.scenes.tread import Tread
 from footfall.models.values.vector import Vector
 from footfall.systems.sensing.contact_monitor import LOADED
 

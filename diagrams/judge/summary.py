@@ -12,7 +12,7 @@ from pydrake.systems.framework import Diagram
 
 from footfall.diagrams.closed_loop.leaf_systems import leaf_systems
 from footfall.diagrams.judge.outcome import Judgement
-from footfall.models.scenes.staircase import Tread
+from footfall.models.scenes.tread import Tread
 from footfall.models.values.perceived import PlaneSegment, PlaneSegmentation, Staircase
 from footfall.models.values.value import Json, to_json
 from footfall.models.values.vector import Vector

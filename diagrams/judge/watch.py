@@ -11,7 +11,6 @@ from footfall.diagrams.judge.ground import end_ground
 from footfall.diagrams.judge.rest import REST_TIME, at_rest, rest_figures
 from footfall.diagrams.judge.true_motion import TrueMotion, true_motion
 from footfall.models.robots.contact_geometry import is_sole
-from footfall.models.scenes.solid_names import is_ground
 from footfall.models.values.feet import FEET, Foot
 from footfall.models.values.vector import Vector
 from footfall.systems.sensing.robot_contacts import (
@@ -51,7 +50,7 @@ class RobotWatch:
             task.robot_instance,
             tuple(task.robot.foot_bodies[foot] for foot in FEET),
             is_sole,
-            is_ground,
+            task.scene.ground_names(),
         )
         self._weight = robot_limits(plant, task.robot_instance).weight
         treads = task.scene.treads() if task.kind == CLIMBING else ()

@@ -50,4 +50,4 @@ class BoxParams(Parameters):
         self.validate()
         size = np.array(self.size, dtype=np.float64)
         X_WB = upright_pose(self.x, self.y, self.z + size[2] / 2.0, self.yaw)
-        return Box(f"{BOX}{self.name}", X_WB, size, self.friction, COLOR)
+        return Box(f"{BOX}{self.name}", X_WB, size, self.friction, COLOR, "box")

@@ -7,7 +7,7 @@ from pydrake.math import RigidTransform
 
 from footfall.models.robots.contact_geometry import GREATEST_FRICTION
 from footfall.models.scenes.solid_names import ROOM
-from footfall.models.scenes.solids import Box, Rgba, upright_pose
+from footfall.models.scenes.solids import Box, Rgba, Role, upright_pose
 from footfall.models.values.validation import Parameters, number
 
 FLOOR_COLOR: Rgba = (0.82, 0.82, 0.80, 1.0)
@@ -57,7 +57,9 @@ class RoomParams(Parameters):
 
         def box(name: str, p_R: list[float], size: list[float], color: Rgba) -> Box:
             X_WB = X_WR.multiply(upright_pose(*p_R))
-            return Box(f"{ROOM}{name}", X_WB, np.array(size), self.friction, color)
+            role: Role = "floor" if name == "floor" else "wall"
+            name, sides = f"{ROOM}{name}", np.array(size)
+            return Box(name, X_WB, sides, self.friction, color, role)
 
         slab = [length, width, deep]
         across, along = (

@@ -6,25 +6,11 @@ import numpy as np
 from pydrake.math import RigidTransform
 
 from footfall.models.robots.contact_geometry import GREATEST_FRICTION
+from footfall.models.scenes.flight import step_box
 from footfall.models.scenes.solid_names import STAIRCASE
-from footfall.models.scenes.solids import Box, Rgba, upright_pose
+from footfall.models.scenes.solids import Box, upright_pose
+from footfall.models.scenes.tread import Tread
 from footfall.models.values.validation import Parameters, number
-from footfall.models.values.value import Value
-from footfall.models.values.vector import Vector
-
-COLOR: Rgba = (0.76, 0.62, 0.42, 1.0)
-
-
-@dataclass(frozen=True, eq=False)
-class Tread(Value):
-    """The true upper face of one step."""
-
-    name: str
-    """The solid that it belongs to, e.g. "staircase/step_2"."""
-    X_WR: RigidTransform
-    """Pose of the rectangle: origin at its centre, x up the stairs, z out of it."""
-    size: Vector
-    """Depth along x and width along y, (2,), m."""
 
 
 @dataclass(kw_only=True)
@@ -78,16 +64,16 @@ class StaircaseParams(Parameters):
         Raises:
             ValueError: a field is wrong; see `validate`.
         """
-        boxes = []
-        for tread in self.treads():
-            top = float(tread.X_WR.translation()[2])
-            height = top if self.closed_risers else self.tread_thickness
-            X_RB = upright_pose(z=-height / 2.0)
-            size = np.array([*tread.size, height])
-            boxes.append(
-                Box(tread.name, tread.X_WR.multiply(X_RB), size, self.friction, COLOR)
+        return tuple(
+            step_box(
+                tread,
+                float(tread.X_WR.translation()[2])
+                if self.closed_risers
+                else self.tread_thickness,
+                self.friction,
             )
-        return tuple(boxes)
+            for tread in self.treads()
+        )
 
     def treads(self) -> tuple[Tread, ...]:
         """The true treads, lowest first.

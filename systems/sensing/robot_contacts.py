@@ -1,6 +1,6 @@
 """The robot's contacts of one plant step: which part met what, with what force."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Container, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -63,7 +63,7 @@ def watched_geometry(
     robot: ModelInstanceIndex,
     feet: tuple[str, ...],
     is_sole: Callable[[str], bool],
-    is_ground: Callable[[str], bool],
+    ground: Container[str],
 ) -> WatchedGeometry:
     """Finds the robot's collision geometries and those of everything else.
 
@@ -73,7 +73,7 @@ def watched_geometry(
         robot: the robot's model instance.
         feet: names of the bodies that carry the soles, left first.
         is_sole: tells a sole's geometry by its name.
-        is_ground: tells by its name (without scope) a solid that soles may touch.
+        ground: names (without scope) of the solids that soles may touch.
 
     Raises:
         ValueError: a foot has no collision geometry.
@@ -104,7 +104,7 @@ def watched_geometry(
         tuple(bodies),
         tuple(bodies.index(foot) for foot in feet),
         tuple(solids),
-        frozenset(index for index, name in enumerate(solids) if is_ground(name)),
+        frozenset(index for index, name in enumerate(solids) if name in ground),
         part_of,
         solid_of,
     )

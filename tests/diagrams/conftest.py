@@ -23,7 +23,6 @@ from footfall.models.robots.jvrc1 import JVRC1
 from footfall.models.robots.robot import JointGains
 from footfall.models.robots.robot_loader import add_robot
 from footfall.models.scenes.scene import SceneParams
-from footfall.models.scenes.solid_names import is_ground
 from footfall.models.scenes.solids import add_solids
 from footfall.models.scenes.staircase import StaircaseParams
 from footfall.models.values.feet import FEET
@@ -171,7 +170,7 @@ def standing_task(
         robot,
         tuple(STIFF.foot_bodies[foot] for foot in FEET),
         is_sole,
-        is_ground,
+        scene.ground_names(),
     )
     weight = robot_limits(plant, robot).weight
     monitor = builder.AddNamedSystem(

@@ -1,16 +1,20 @@
 """Every number of every parameter class is either refused by name or can be used."""
 
 import dataclasses
+import functools
 import importlib
 import math
 import pkgutil
 import re
+import tempfile
 import typing
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+import trimesh
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from pydrake.math import RigidTransform
@@ -22,10 +26,12 @@ from footfall.diagrams.scenario import Scenario
 from footfall.diagrams.task_params import PushParams
 from footfall.models.robots.jvrc1 import JVRC1
 from footfall.models.robots.robot_description import FeetDescription, RobotDescription
+from footfall.models.scenes.flight import FlightParams, PlatformParams
 from footfall.models.scenes.mover import MoverParams
 from footfall.models.scenes.obstacle import BoxParams
 from footfall.models.scenes.room import RoomParams
 from footfall.models.scenes.scene import SceneParams
+from footfall.models.scenes.scene_model import SceneModelParams
 from footfall.models.scenes.staircase import StaircaseParams
 from footfall.models.values.bounds import BOUNDS, CHOICES
 from footfall.models.values.validation import Parameters
@@ -58,7 +64,7 @@ from footfall.systems.sensing.tilting_lidar import TiltingLidarParams
 
 NUMBERS = (int, float, float | None, list[float], list[float] | None)
 """The types of the fields that hold numbers."""
-FREE_TEXTS = ("name", "description", "body", "urdf", "left", "right")
+FREE_TEXTS = ("name", "description", "body", "urdf", "left", "right", "file")
 LARGEST = 2**31
 """No number of a scenario is larger."""
 
@@ -114,6 +120,9 @@ BUILT: dict[type[Parameters], Callable[[Any], object]] = {
         p, beam_angles=np.zeros(1), mount_body=0, X_BM=RigidTransform()
     ),
     StabilizerParams: lambda p: Stabilizer(p, JVRC1.sole, 62.4),
+    FlightParams: lambda p: p.solids(),
+    PlatformParams: lambda p: p.solids(),
+    SceneModelParams: lambda p: p.solids(),
     StaircaseMapParams: StaircaseMap,
     StaircaseParams: lambda p: p.solids(),
     TiltingLidarParams: lambda p: (p.angles(), p.tilts()),
@@ -128,7 +137,17 @@ def _valid(one: type[Parameters]) -> Parameters:
     if one is RobotDescription:
         feet = FeetDescription(left="left_foot", right="right_foot")
         return RobotDescription(urdf="robot.urdf", foot_bodies=feet)
+    if one is SceneModelParams:
+        return SceneModelParams(file=_block())
     return PushParams(force=[1.0, 0.0, 0.0]) if one is PushParams else one()
+
+
+@functools.cache
+def _block() -> str:
+    """A file that a scene may name."""
+    file = Path(tempfile.mkdtemp()) / "block.stl"
+    trimesh.creation.box((0.5, 0.5, 0.5)).export(file)
+    return str(file)
 
 
 def _with(one: type[Parameters], name: str, value: float) -> Parameters:

@@ -4,7 +4,9 @@ from dataclasses import fields
 from math import hypot
 from pathlib import Path
 
+import numpy as np
 import pytest
+import trimesh
 import yaml
 
 from footfall.diagrams.scenario import (
@@ -335,3 +337,42 @@ def test_stairs_and_obstacles_are_crossed_quasi_statically_too() -> None:
     assert load_scenario("obstacle-15cm", ["task.mode=quasi_static"])
     message = _message("room", "task.mode=quasi_static")
     assert "task.mode: room_crossing is only done dynamic, got" in message
+
+
+def test_a_model_s_path_starts_at_the_scenario_s_file(tmp_path: Path) -> None:
+    """And a scenario that is saved elsewhere finds it again."""
+    trimesh.creation.box(bounds=[[0, -0.4, 0], [0.3, 0.4, 0.2]]).export(
+        tmp_path / "step.stl"
+    )
+    file = tmp_path / "step.yaml"
+    file.write_text("scene: {models: [{file: step.stl, x: 0.6}]}")
+    scenario = load_scenario(file)
+    (tread,) = scenario.scene.treads()
+    np.testing.assert_allclose(tread.X_WR.translation(), [0.75, 0.0, 0.2], atol=1e-9)
+    elsewhere = tmp_path / "deeper" / "scenario.yaml"
+    elsewhere.parent.mkdir()
+    save_scenario(scenario, elsewhere)
+    assert load_scenario(elsewhere).scene.models == scenario.scene.models
+
+
+@pytest.mark.parametrize(
+    ("scene", "message"),
+    [
+        ("models: [{file: no.stl}]", r"scene\.models\[0\]\.file: .*no\.stl: no such"),
+        ("models: [{}]", r"scene\.models\[0\]\.file: must end with"),
+        ("flights: [{width: 0.1}]", r"scene\.flights\[0\]\.width: must be at least"),
+        ("flights: [{runs: [1]}]", r"scene\.flights\[0\]\.runs: must have as many"),
+        ("platforms: [{x: 6}]", r"scene\.platforms\[0\]: must lie inside the room"),
+        ("boxes: []", r"scene\.staircase: the task stair_climbing needs one, or"),
+    ],
+)
+def test_a_scene_of_one_s_own_that_is_wrong_is_told(
+    tmp_path: Path, scene: str, message: str
+) -> None:
+    """In one line, with file and field."""
+    file = tmp_path / "own.yaml"
+    file.write_text(f"scene: {{{scene}}}")
+    with pytest.raises(ScenarioError, match=message) as told:
+        load_scenario(file)
+    assert str(told.value).startswith(f"{file}: ")
+    assert "\n" not in str(told.value)

@@ -33,7 +33,9 @@ from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterPa
 from footfall.systems.perception.planes.segments import patch_segment, tread_segment
 from footfall.systems.perception.planes.stair_chain import (
     floor_below,
+    is_landing,
     join_parts,
+    landing_candidates,
     largest_size_cluster,
     longest_chain,
     tread_candidates,
@@ -237,16 +239,22 @@ def find_treads(
         chosen.sort(key=lambda i: float(patches[i].center[2]))
     else:
         candidates = tread_candidates(patches, limits, params.max_dz)
+        candidates += landing_candidates(patches, limits, params.max_dz)
+        candidates.sort(key=lambda number: float(patches[number].center[2]))
         chosen = longest_chain(patches, candidates, limits)
     if not chosen:
         return [], 0.0, [], floor_below(patches, [], limits)
-    yaw, treads = refine_treads([patches[i] for i in chosen], cloud, viewpoint)
+    flight = [patches[i] for i in chosen]
     if params.staircase_from == "size_cluster":
+        yaw, treads = refine_treads(flight, cloud, viewpoint)
         return chosen, yaw, treads, floor_below(patches, chosen, limits)
-    if len(treads) > 1 and not treads[-1].ends:
-        # Of a tread, or a landing, that the view cuts off the size is unknown.
+    landings = [is_landing(patch, limits) for patch in flight]
+    yaw, treads = refine_treads(flight, cloud, viewpoint, landings)
+    if len(treads) > 1 and not treads[-1].ends and not landings[-1]:
+        # Of a tread that the view cuts off the size is unknown. Of a landing it does
+        # not matter: what was seen of it is deep enough to stand on.
         depths = [float(tread.high[0] - tread.low[0]) for tread in treads]
-        usual = float(np.median(depths[:-1]))
+        usual = float(np.median(np.array(depths[:-1])[np.logical_not(landings[:-1])]))
         if abs(depths[-1] - usual) > limits.depth_tolerance * usual:
             chosen, treads = chosen[:-1], treads[:-1]
     if not treads[0].drops:

@@ -24,6 +24,11 @@ PART_OFFSET = 0.015
 """Most that parts of one tread lie off one plane, m: three times the noise."""
 PART_FILL = 0.45
 """Least part of a joined tread's rectangle that was seen."""
+LANDING_GAP = 0.12
+"""Most that a landing's edge, as it was seen, is off that of the tread it adjoins, m:
+of a nosing's overhang and of what a riser hides."""
+LANDING_OVERLAP = 0.6
+"""Least part of the narrower one's width by which both adjoin."""
 LEVEL_SLOPE = 0.09
 """Steepest tread that is joined from parts, rad."""
 
@@ -37,6 +42,8 @@ class StairLimits(Parameters):
     seen in part still counts."""
     max_depth: float = number(0.45, "m", above=0.0)
     """Largest depth of a tread, m: building codes stop at 0.36; a landing has more."""
+    max_landing: float = number(2.5, "m", above=0.0)
+    """Longest side of a landing, m: what is larger is a floor."""
     min_width: float = number(0.30, "m", above=0.0)
     """Least width of a tread, m: two feet side by side."""
     max_width: float = number(3.0, "m", above=0.0)
@@ -172,14 +179,39 @@ def tread_candidates(
     return sorted(chosen, key=lambda number: float(patches[number].center[2]))
 
 
+def is_landing(patch: Patch, limits: StairLimits) -> bool:
+    """Tells whether a patch is too deep for a tread."""
+    return bool(patch.extent[0] > limits.max_depth)
+
+
+def landing_candidates(
+    patches: tuple[Patch, ...], limits: StairLimits, max_dz: float
+) -> list[int]:
+    """Selects the level patches with the size of a landing, lowest first.
+
+    The lowest level patch in view is none: it is the floor, or a part of it.
+    """
+    level = [i for i, patch in enumerate(patches) if patch.extent[2] <= max_dz]
+    level.sort(key=lambda number: float(patches[number].center[2]))
+    return [
+        number
+        for number in level[1:]
+        if is_landing(patches[number], limits)
+        and patches[number].extent[1] <= limits.max_landing
+    ]
+
+
 def longest_chain(
     patches: tuple[Patch, ...], candidates: list[int], limits: StairLimits
 ) -> list[int]:
     """Finds the longest flight: each tread a rise above and a run behind the last.
 
+    A landing follows a tread; none begins a flight.
+
     Args:
         patches: all patches.
-        candidates: indices of those with the size of a tread, lowest first.
+        candidates: indices of those with the size of a tread or a landing, lowest
+            first.
         limits: what passes for a staircase.
 
     Returns:
@@ -198,6 +230,8 @@ def longest_chain(
             longer = (length[lower][0] + 1, length[lower][1] + support)
             if longer > length[upper]:
                 length[upper], before[upper] = longer, lower
+        if before[upper] is None and is_landing(patches[upper], limits):
+            del length[upper]
     if not length:
         return []
     last: int | None = max(length, key=lambda number: length[number])
@@ -214,6 +248,8 @@ def _follows(lower: Patch, upper: Patch, limits: StairLimits) -> bool:
     rise = float(step[2])
     if not limits.min_rise <= rise <= limits.max_rise:
         return False
+    if is_landing(lower, limits) or is_landing(upper, limits):
+        return _adjoins(lower, upper, limits)
     axes = (lower.axes[:2, 0], upper.axes[:2, 0])
     if abs(float(axes[0] @ axes[1])) < np.cos(limits.max_turn):
         return False
@@ -226,6 +262,26 @@ def _follows(lower: Patch, upper: Patch, limits: StairLimits) -> bool:
     across = abs(float(step[0] * axis[1] - step[1] * axis[0]))
     deepest = (lower.extent[0] + upper.extent[0]) / 2.0
     return bool(0.5 * deepest <= along <= deepest + 0.15 and across <= 0.25 * wider)
+
+
+def _adjoins(lower: Patch, upper: Patch, limits: StairLimits) -> bool:
+    """Tests whether one of a tread and a landing begins where the other ends.
+
+    Which side of a landing is its depth only the tread's axis tells.
+    """
+    if is_landing(lower, limits) and is_landing(upper, limits):
+        return False
+    tread = upper if is_landing(lower, limits) else lower
+    forward: Vector = tread.axes[:2, 0]
+    if (upper.center - lower.center)[:2] @ forward < 0.0:
+        forward = -forward
+    axes = np.column_stack([forward, [-forward[1], forward[0]]])
+    low, high = lower.outline[:, :2] @ axes, upper.outline[:, :2] @ axes
+    gap = high[:, 0].min() - low[:, 0].max()
+    ends = np.array([[side.min(), side.max()] for side in (low[:, 1], high[:, 1])])
+    shared = ends[:, 1].min() - ends[:, 0].max()
+    narrower = float(np.diff(ends, axis=1).min())
+    return bool(abs(gap) <= LANDING_GAP and shared >= LANDING_OVERLAP * narrower)
 
 
 def floor_below(

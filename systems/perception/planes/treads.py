@@ -6,6 +6,7 @@ the next face stands, the ends and an edge without face where the points end.
 All of it in a frame G whose z points up.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -61,7 +62,10 @@ def stair_rotation(yaw: float) -> Vector:
 
 
 def initial_yaw(
-    patches: list[Patch], points: Vector, viewpoint: Vector | None
+    patches: list[Patch],
+    points: Vector,
+    viewpoint: Vector | None,
+    landings: Sequence[bool] = (),
 ) -> float:
     """Estimates the direction up the stairs from the patches' axes, rad.
 
@@ -69,10 +73,12 @@ def initial_yaw(
         patches: the treads, lowest first.
         points: the cloud near them, (n, 3), m.
         viewpoint: where it was seen from, (3,), m.
+        landings: which of the treads are landings, whose short side may be across; not
+            the first one. Empty for none.
     """
     axis = np.zeros(2)
     reference = patches[0].axes[:2, 0]
-    for patch in patches:
+    for patch in _without(patches, landings):
         sign = 1.0 if patch.axes[:2, 0] @ reference >= 0.0 else -1.0
         axis += sign * len(patch.points) * patch.axes[:2, 0]
     if len(patches) > 1:
@@ -83,6 +89,12 @@ def initial_yaw(
         up = _away_from_face(patches[0], points)
     axis *= 1.0 if axis @ up >= 0.0 else -1.0
     return float(np.arctan2(axis[1], axis[0]))
+
+
+def _without(patches: list[Patch], landings: Sequence[bool]) -> list[Patch]:
+    """Leaves the landings out."""
+    wide = landings or [False] * len(patches)
+    return [patch for patch, landing in zip(patches, wide, strict=True) if not landing]
 
 
 def _away_from_face(patch: Patch, points: Vector) -> Vector:
@@ -98,7 +110,10 @@ def _away_from_face(patch: Patch, points: Vector) -> Vector:
 
 
 def refine_treads(
-    patches: list[Patch], cloud: Vector, viewpoint: Vector | None
+    patches: list[Patch],
+    cloud: Vector,
+    viewpoint: Vector | None,
+    landings: Sequence[bool] = (),
 ) -> tuple[float, list[Tread]]:
     """Fits the rectangles of a flight of treads.
 
@@ -106,12 +121,13 @@ def refine_treads(
         patches: the treads, lowest first, at least one.
         cloud: the cloud, (n, 3), m.
         viewpoint: where it was seen from, (3,), m.
+        landings: as of `initial_yaw`.
 
     Returns:
         Yaw of S in G, rad, and the treads in S (which has G's origin).
     """
     near = _near(patches, cloud)
-    yaw = initial_yaw(patches, near, viewpoint)
+    yaw = initial_yaw(patches, near, viewpoint, landings)
     treads: list[Tread] = []
     for _ in range(3):
         rotation = stair_rotation(yaw)

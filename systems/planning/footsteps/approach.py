@@ -18,7 +18,7 @@ from pydrake.math import RigidTransform, RollPitchYaw
 
 from footfall.models.robots.robot import Sole
 from footfall.models.values.feet import FEET, Foot, other_foot
-from footfall.models.values.perceived import Staircase
+from footfall.models.values.perceived import PlaneSegment, Staircase
 from footfall.models.values.planned import Footstep
 from footfall.models.values.vector import Vector
 from footfall.systems.planning.footsteps.foothold import (
@@ -153,6 +153,7 @@ def _walk(
 
 def approach_staircase(
     staircase: Staircase,
+    ground: int,
     feet: Mapping[Foot, RigidTransform],
     stand: Vector,
     yaw: float,
@@ -160,7 +161,18 @@ def approach_staircase(
     sole: Sole,
     params: FootstepPlannerParams,
 ) -> tuple[Footstep, ...] | Refusal:
-    """The steps on the floor to the stand line, none where the feet are on it."""
+    """Plans the steps to the stand line, none where the feet are on it.
+
+    Args:
+        staircase: what was seen, in W.
+        ground: what is walked on: FLOOR, or the tread that is a landing.
+        feet: sole frames X_WF.
+        stand: where the point midway between the feet is to come to, in G, (2,), m.
+        yaw: of G in W, that of the staircase, rad.
+        z: height of the soles, m.
+        sole: both soles.
+        params: reach and tolerances.
+    """
     start = {
         f: FloorStep(f, rotate(-yaw, X.translation()[:2]), wrap(heading(X) - yaw))
         for f, X in feet.items()
@@ -169,31 +181,56 @@ def approach_staircase(
     walk = plan_approach(start, stand, last, sole, params)
     if isinstance(walk, Refusal) or not walk:
         return walk if isinstance(walk, Refusal) else ()
-    floor = staircase.floor
-    if floor is None:
+    plane, name = staircase.floor, "the floor before the staircase"
+    if ground != FLOOR:
+        plane, name = staircase.treads[ground], f"tread {ground + 1}"
+    if plane is None:
         return Refusal("no floor seen between the robot and the staircase")
-    slope = tilt(floor.normal)
+    slope = tilt(plane.normal)
     if slope > params.flat_tolerance:
         return Refusal(
-            f"the floor before the staircase slopes by {degrees(slope):.1f} deg, more "
+            f"{name} slopes by {degrees(slope):.1f} deg, more "
             f"than {degrees(params.flat_tolerance):.1f} deg"
         )
+    steps = tuple(_footstep(step, yaw, z, ground) for step in walk)
+    if ground != FLOOR:
+        refusal = _refuse_edge(plane, name, steps, sole, params)
+        return refusal or steps
     toes = rotate(yaw, stand + np.array([sole.toe, 0.0]))
-    unseen = shapely.Polygon(floor.polygon[:, :2]).distance(shapely.Point(toes))
+    unseen = shapely.Polygon(plane.polygon[:, :2]).distance(shapely.Point(toes))
     if unseen > params.floor_reach:
         return Refusal(
             f"the stand line lies {unseen:.2f} m from the floor that was seen, more "
             f"than {params.floor_reach:.2f} m"
         )
-    steps = tuple(_footstep(step, yaw, z) for step in walk)
     return _refuse_collision(staircase, feet, steps, sole, params) or steps
 
 
-def _footstep(step: FloorStep, yaw: float, z: float) -> Footstep:
+def _footstep(step: FloorStep, yaw: float, z: float, plane: int) -> Footstep:
     """The step with a level sole at height z, in W; G is turned by `yaw`."""
     p_WF: Vector = np.array([*rotate(yaw, step.p), z])
     X_WF = RigidTransform(RollPitchYaw(0.0, 0.0, wrap(step.yaw + yaw)), p_WF)
-    return Footstep(foot=step.foot, X_WF=X_WF, plane=FLOOR)
+    return Footstep(foot=step.foot, X_WF=X_WF, plane=plane)
+
+
+def _refuse_edge(
+    plane: PlaneSegment,
+    name: str,
+    steps: tuple[Footstep, ...],
+    sole: Sole,
+    params: FootstepPlannerParams,
+) -> Refusal | None:
+    """Refuses steps whose sole comes nearer to an edge of a landing than the margin.
+
+    The riser behind it is kept off by the stand line.
+    """
+    room = plane.size / 2.0 - [0.0, params.edge_margin]
+    for step in steps:
+        corners = plane.X_WR.inverse().multiply(sole_corners(step.X_WF, sole).T)[:2]
+        beyond = np.abs(corners) - room[:, None]
+        if beyond.max() > 1e-6:
+            return Refusal(f"the way to the stand line leads off {name}")
+    return None
 
 
 def _refuse_collision(

@@ -143,7 +143,8 @@ def foothold_x(
 
     The middle of the sole goes to the middle of the tread, halfway between its front
     edge and its back edge (or the next tread's front edge where that hangs over it),
-    and as far from there as margins and `foothold_bias` ask. Both feet get the same
+    and as far from there as margins and `foothold_bias` ask; on a landing it goes to
+    `landing_foothold` from the front edge. Both feet get the same
     x_S unless the tread is turned so far that one of them would not fit.
 
     Args:
@@ -162,6 +163,9 @@ def foothold_x(
     outline = rotate(-turn, sole_outline(sole))
     heel, toe = outline[:, 0].min(), outline[:, 0].max()
     front = back = tread.size[0] / 2.0
+    if tread.size[0] > params.landing_depth:
+        room = max(2.0 * params.landing_foothold, toe - heel + 2.0 * params.edge_margin)
+        back = min(front, room - front)
     centre = rotate(-yaw, tread.X_WR.translation()[:2])
     if above is not None:
         for side in (-sole.half_width, sole.half_width):

@@ -60,6 +60,11 @@ class FootstepPlannerParams(Parameters):
     it always holds; at the heel it gives way where the tread is too shallow."""
     side_margin: float = number(0.03, "m", least=0.0)
     """From the soles to the tread's sides, m."""
+    landing_depth: float = number(0.45, "m", above=0.0)
+    """A tread deeper than this is a landing, m: feet are put near its front edge, and
+    walk across it to the next riser."""
+    landing_foothold: float = number(0.15, "m", above=0.0)
+    """From a landing's front edge to the middle of the sole, m."""
     max_heel_overhang: float = number(0.0, "m", least=0.0)
     """How far the heel may reach out over the tread's estimated front edge where the
     tread is too shallow for the whole sole, m."""

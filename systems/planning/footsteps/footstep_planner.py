@@ -35,8 +35,9 @@ def plan_footsteps(
 ) -> FootstepPlan:
     """Plans the way to the next scan: an approach on the floor, then up some treads.
 
-    From the floor the robot first walks to a stand with its toes `stand_distance`
-    before the first tread, aligned with the staircase and far enough from its sides.
+    From the floor, or on a landing, the robot first walks to a stand with its toes
+    `stand_distance` before the next tread, aligned with the staircase and far enough
+    from its sides.
     Then each tread gets both feet, the second beside the first. Only the estimated
     rectangles are used; where the robot stands follows from its feet.
 
@@ -97,12 +98,13 @@ def _plan(
     lead: Foot = "left" if params.lead_foot == "left" else "right"
     approach: tuple[Footstep, ...] = ()
     distance = 0.0
-    if ground == FLOOR:
+    landing = ground >= 0 and treads[ground].size[0] > params.landing_depth
+    if ground == FLOOR or landing:
         side = params.stance_width / 2.0 + sole.half_width
-        edge = min(front_edge(treads[0], yaw, y + d) for d in (-side, side))
+        edge = min(front_edge(treads[above[0]], yaw, y + d) for d in (-side, side))
         stand = np.array([edge - params.stand_distance - sole.toe, y])
         distance = float(np.linalg.norm(rotate(yaw, stand) - middle))
-        walk = approach_staircase(staircase, feet, stand, yaw, z, sole, params)
+        walk = approach_staircase(staircase, ground, feet, stand, yaw, z, sole, params)
         if isinstance(walk, Refusal):
             return walk
         approach = walk

@@ -16,6 +16,8 @@ from pydrake.multibody.tree import ModelInstanceIndex, SpatialInertia
 from pydrake.systems.framework import DiagramBuilder
 
 FEET = ("LEFT", "RIGHT")
+GROUND = frozenset({"room/floor", "staircase/step_1"})
+"""What soles may touch."""
 WEIGHT = 9.81
 """Of a ball, N."""
 FRICTION = CoulombFriction(0.5, 0.5)

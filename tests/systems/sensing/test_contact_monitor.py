@@ -8,13 +8,12 @@ from pydrake.multibody.plant import ContactResults
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import DiagramBuilder
 
-from footfall.models.scenes.solid_names import is_ground
 from footfall.models.values.contact import Touches
 from footfall.models.values.vector import Vector
 from footfall.systems.ports import eval_vector
 from footfall.systems.sensing.contact_monitor import ContactMonitor
 from footfall.systems.sensing.robot_contacts import WatchedGeometry, watched_geometry
-from tests.systems.sensing.ball_scene import FEET, WEIGHT, ball_scene, is_sole
+from tests.systems.sensing.ball_scene import FEET, GROUND, WEIGHT, ball_scene, is_sole
 
 
 @dataclass(frozen=True)
@@ -46,7 +45,7 @@ def simulate(
         scene.robot,
         FEET,
         is_sole,
-        is_ground,
+        GROUND,
     )
     builder: DiagramBuilder = scene.builder
     monitor = builder.AddNamedSystem("monitor", ContactMonitor(watched, step, WEIGHT))
@@ -149,7 +148,7 @@ def test_own_bodies_that_meet_are_a_touch() -> None:
         scene.robot,
         FEET,
         is_sole,
-        is_ground,
+        GROUND,
     )
     monitor = scene.builder.AddNamedSystem(
         "monitor", ContactMonitor(watched, 0.002, WEIGHT)

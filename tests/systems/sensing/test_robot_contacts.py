@@ -20,7 +20,6 @@ from pydrake.multibody.tree import SpatialInertia
 from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import DiagramBuilder
 
-from footfall.models.scenes.solid_names import is_ground
 from footfall.systems.sensing.robot_contacts import (
     RobotContact,
     WatchedGeometry,
@@ -28,7 +27,13 @@ from footfall.systems.sensing.robot_contacts import (
     scene_forces,
     watched_geometry,
 )
-from tests.systems.sensing.ball_scene import FEET, FRICTION, WEIGHT, is_sole
+from tests.systems.sensing.ball_scene import (
+    FEET,
+    FRICTION,
+    GROUND,
+    WEIGHT,
+    is_sole,
+)
 
 RADIUS = 0.1
 
@@ -74,7 +79,7 @@ def settled(
     simulator = Simulator(diagram)
     simulator.AdvanceTo(0.2)
     watched = watched_geometry(
-        plant, scene_graph.model_inspector(), robot, FEET, is_sole, is_ground
+        plant, scene_graph.model_inspector(), robot, FEET, is_sole, GROUND
     )
     context = plant.GetMyContextFromRoot(simulator.get_context())
     results = plant.get_contact_results_output_port().Eval(context)
@@ -124,5 +129,5 @@ def test_a_foot_without_contact_geometry_is_refused() -> None:
             robot,
             ("LEFT",),
             is_sole,
-            is_ground,
+            GROUND,
         )

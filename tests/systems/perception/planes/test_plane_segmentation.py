@@ -1,6 +1,7 @@
 """The chain from cloud to treads, on synthetic sweeps and on real data."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -137,16 +138,42 @@ def test_hidden_parts_do_not_move_the_edges(scan: Scan, stair_scene: Any) -> Non
     check_treads(found, scene, [1, 2])
 
 
-def test_landing_is_no_tread(scan: Scan, stair_scene: Any) -> None:
-    """A landing above the last tread is a plane but no tread, even if cut off."""
+def test_landing_goes_on_with_the_flight(scan: Scan, stair_scene: Any) -> None:
+    """The last of the flight, though it is deeper, once enough of it is seen."""
     scene = stair_scene(steps=2, rise=0.17, run=0.30, width=1.0, landing=1.2)
     eye = scene.sensor()
-    for tilt in ((20.0, 80.0), (38.0, 88.0)):
-        cloud = scan(scene, eye, tilt=tilt)
-        found, _ = segment_planes(cloud, GRAVITY, PARAMS, SOLE, eye)
-        check_treads(found, scene, [0, 1])
-        heights = [float(p.X_WR.translation()[2]) for p in found.planes]
-        assert min(abs(height - 0.51) for height in heights) < 0.005
+    cloud = scan(scene, eye, tilt=(20.0, 80.0))
+    found, _ = segment_planes(cloud, GRAVITY, PARAMS, SOLE, eye)
+    *treads, landing = found.staircase.treads
+    staircase = replace(found.staircase, treads=tuple(treads))
+    check_treads(replace(found, staircase=staircase), scene, [0, 1])
+    corners = landing.corners() @ scene.rotation()
+    assert np.abs(corners[:, 2] - 0.51).max() < 0.005
+    back = scene.tread_corners(1)[2] @ scene.rotation()
+    assert np.abs(corners[[0, 3], 0] - back[0]).max() < 0.01
+    assert landing.size[0] > 0.45
+    cut, _ = segment_planes(
+        scan(scene, eye, tilt=(38.0, 88.0)), GRAVITY, PARAMS, SOLE, eye
+    )
+    check_treads(cut, scene, [0, 1])
+    heights = [float(p.X_WR.translation()[2]) for p in cut.planes]
+    assert min(abs(height - 0.51) for height in heights) < 0.005
+
+
+def test_a_flight_goes_on_behind_a_landing(scan: Scan, stair_scene: Any) -> None:
+    """Which may be wider than it is deep; a table beside the flight is none of it."""
+    lower = stair_scene(steps=2, rise=0.15, run=0.30, width=1.0, landing=0.9)
+    eye = lower.sensor()
+    cloud = scan(lower, eye, tilt=(20.0, 80.0))
+    shift = np.array([1.5, 0.0, 0.45]) @ lower.rotation().T
+    upper = stair_scene(steps=2, rise=0.15, run=0.30, width=1.0)
+    above = scan(upper, upper.sensor(), tilt=(20.0, 80.0))
+    above = above[(above @ upper.rotation())[:, 2] > 0.01] + shift
+    found, _ = segment_planes(np.vstack([cloud, above]), GRAVITY, PARAMS, SOLE, eye)
+    heights = [float(tread.X_WR.translation()[2]) for tread in found.staircase.treads]
+    np.testing.assert_allclose(heights, [0.15, 0.3, 0.45, 0.6, 0.75], atol=0.005)
+    depths = [float(tread.size[0]) for tread in found.staircase.treads]
+    np.testing.assert_allclose(depths[2], 0.9, atol=0.02)
 
 
 def test_room_without_stairs_has_no_staircase(scan: Scan, stair_scene: Any) -> None:

@@ -151,11 +151,15 @@ def test_what_is_not_on_the_flight_is_not_added(stray: PlaneSegment) -> None:
     assert merge_staircase(known, seen(stray), PARAMS) == known
 
 
-def test_landing_is_not_added() -> None:
-    """What is much deeper than the known treads is no tread."""
+@pytest.mark.parametrize(("depth", "added"), [(0.42, 0), (0.9, 1), (2.6, 0)])
+def test_a_landing_is_added_and_what_is_between_is_not(
+    depth: float, added: int
+) -> None:
+    """What is deeper than the known treads, or than any landing, is neither."""
     known = Staircase((tread(0), tread(1)), FLOOR)
-    landing = tread(2, x=(2 * RUN, 2 * RUN + 0.42))
-    assert merge_staircase(known, seen(landing), PARAMS) == known
+    landing = tread(2, x=(2 * RUN, 2 * RUN + depth))
+    merged = merge_staircase(known, seen(landing), PARAMS)
+    assert merged.treads == (*known.treads, landing)[: 2 + added]
 
 
 def test_floor_is_found_later() -> None:

@@ -66,6 +66,45 @@ def test_a_random_staircase_is_climbed_to_the_top(seed: int) -> None:
     assert on == n - 1
 
 
+@pytest.mark.parametrize("depth", [0.5, 0.9, 1.4])
+@pytest.mark.parametrize("yaw", [0.0, 0.8])
+def test_a_landing_is_walked_across_to_the_next_riser(depth: float, yaw: float) -> None:
+    """Onto it near its front edge, then to the stand line on it, then on."""
+    stairs = staircase(
+        [0.27, depth, 0.3], [0.14, 0.18, 0.2], yaw=yaw, noise=0.005, turn_noise=0.01
+    )
+    feet = feet_at(yaw, (0.0, 0.0, 0.0), -0.25 - SOLE.toe, 0.02, 0.0)
+    planes: list[int] = []
+    for _ in range(6):
+        plan = plan_footsteps(stairs, *feet, PARAMS, SOLE)
+        if plan.status == "finished":
+            break
+        check_steps(plan, stairs, feet)
+        planes += [step.plane for step in plan.footsteps]
+        last = {step.foot: step.X_WF for step in plan.footsteps}
+        feet = (last["left"], last["right"])
+        if planes[-1] == 1:
+            toes = feet[0].multiply(np.array([SOLE.toe, 0.0, 0.0]))
+            before = stairs.treads[2].X_WR.inverse().multiply(toes)[0] + 0.15
+            if plan.footsteps[0].plane == 1:
+                assert before == pytest.approx(-PARAMS.stand_distance, abs=0.01)
+    assert plan.status == "finished"
+    crossing = len(planes) - 8
+    assert planes[-2:] == [2, 2]
+    assert crossing == planes.count(1) - 2 >= 2
+
+
+def test_a_way_that_leads_off_the_landing_is_refused() -> None:
+    """The robot stands with a foot beside it."""
+    stairs = staircase([0.27, 0.9, 0.3], [0.14, 0.18, 0.2], width=0.42)
+    feet = feet_at(0.0, (0.0, 0.0, 0.0), 0.5, 0.1, 0.0, z=0.32)
+    plan = plan_footsteps(stairs, *feet, PARAMS, SOLE)
+    assert (plan.status, plan.reason) == (
+        "infeasible",
+        "the way to the stand line leads off tread 2",
+    )
+
+
 @pytest.mark.parametrize(
     ("x", "steps"),
     [(-0.20, 0), (-0.21, 0), (-0.30, 2), (-0.50, 2), (-0.51, 3), (-0.81, 4)],
