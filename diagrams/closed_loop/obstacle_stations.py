@@ -47,7 +47,6 @@ def build_obstacle_planning(setup: Setup) -> Station:
     `goal`, `crossing_planner`, `executive`.
     """
     params = setup.params
-    quasi_static = setup.scenario.task.mode == "quasi_static"
     thinking = params.thinking
     goal: Vector = np.array(setup.scenario.task.goal, dtype=np.float64)
     station = StationBuilder("planning", setup.parts)
@@ -61,7 +60,7 @@ def build_obstacle_planning(setup: Setup) -> Station:
             params.zmp_preview,
             planning_body(setup.robot, setup.model),
             setup.stand.plan,
-            "quasi_static" if quasi_static else "dynamic",
+            setup.mode,
         ),
     )
     station.add(
@@ -70,7 +69,7 @@ def build_obstacle_planning(setup: Setup) -> Station:
             params.executive,
             setup.stand.plan,
             thinking.quasi_static_crossing_planning
-            if quasi_static
+            if setup.mode == "quasi_static"
             else thinking.crossing_planning,
         ),
     )

@@ -14,6 +14,7 @@ from footfall.models.values.vector import Vector
 from footfall.systems.planning.executive.path_executive import PathExecutive
 from footfall.systems.planning.motion.motion_planner import MotionPlanner
 from footfall.systems.planning.motion.motion_stop import stop_early
+from footfall.systems.planning.motion.motion_task import Walker
 from footfall.systems.planning.path.path_footstep_planner import PathFootstepPlanner
 from footfall.systems.planning.path.path_planner import PathPlanner
 from footfall.systems.planning.whole_body.whole_body_plan import planning_body
@@ -29,18 +30,15 @@ def build_room_planning(setup: Setup) -> Station:
     """
     params, robot, task = setup.params, setup.robot, setup.scenario.task
     goal: Vector = np.array(task.goal, dtype=np.float64)
-    body = planning_body(robot, setup.model)
+    walker = Walker(
+        params.motion_planner,
+        params.zmp_preview,
+        robot,
+        planning_body(robot, setup.model),
+    )
 
     def stop(plan: MotionPlan, time: float) -> MotionPlan | None:
-        return stop_early(
-            plan,
-            time,
-            params.footstep_planner.stance_width,
-            params.motion_planner,
-            params.zmp_preview,
-            robot,
-            body,
-        )
+        return stop_early(plan, time, params.footstep_planner.stance_width, walker)
 
     thinking = params.thinking
     if task.environment is not None:
@@ -57,12 +55,7 @@ def build_room_planning(setup: Setup) -> Station:
     station.add(
         "level_ground", lambda: ConstantValueSource(AbstractValue.Make(Staircase()))
     )
-    station.add(
-        "motion_planner",
-        lambda: MotionPlanner(
-            params.motion_planner, params.zmp_preview, robot, body=body
-        ),
-    )
+    station.add("motion_planner", lambda: MotionPlanner(walker))
     station.add(
         "executive",
         lambda: PathExecutive(

@@ -13,6 +13,7 @@ from footfall.models.robots.robot_alone import robot_alone
 from footfall.models.values.planned import MotionPlan
 from footfall.models.values.vector import Vector
 from footfall.systems.planning.motion.motion import plan_motion
+from footfall.systems.planning.motion.motion_task import Mode, MotionTask, Walker
 from footfall.systems.tracking.whole_body_ik import IkTarget, WholeBodyIk, solve_posture
 
 
@@ -43,6 +44,12 @@ class Setup:
     stand: Stand
     parts: Parts
     """What the user has put in the places of ours."""
+
+    @property
+    def mode(self) -> Mode:
+        """How the robot is to move."""
+        slow = self.scenario.task.mode == "quasi_static"
+        return "quasi_static" if slow else "dynamic"
 
 
 def set_up(scenario: Scenario, parts: Parts) -> Setup:
@@ -84,7 +91,7 @@ def initial_stand(
         waist=waist,
         waist_rate=nothing,
     )
-    nowhere: Vector = np.zeros((0, 3))
-    plan = plan_motion(feet, com, (), nowhere, planner, params.zmp_preview, robot)
+    walker = Walker(planner, params.zmp_preview, robot)
+    plan = plan_motion(MotionTask(feet, com), walker)
     ik = WholeBodyIk(model, robot, params.ik)
     return Stand(feet, com, solve_posture(ik, model, target), plan)

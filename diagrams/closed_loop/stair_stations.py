@@ -16,6 +16,7 @@ from footfall.systems.planning.executive.executive import Executive
 from footfall.systems.planning.footsteps.footstep_planner import FootstepPlanner
 from footfall.systems.planning.motion.motion_planner import MotionPlanner
 from footfall.systems.planning.motion.motion_prediction import MotionPredictor
+from footfall.systems.planning.motion.motion_task import Walker
 from footfall.systems.planning.whole_body.whole_body_plan import planning_body
 from footfall.systems.tracking.whole_body_ik import WholeBodyIk
 
@@ -58,7 +59,6 @@ def build_stair_planning(setup: Setup) -> Station:
     Parts: `footstep_planner`, `motion_planner`, `executive`.
     """
     params, robot, model = setup.params, setup.robot, setup.model
-    quasi_static = setup.scenario.task.mode == "quasi_static"
     thinking = params.thinking
     station = StationBuilder("planning", setup.parts)
     station.add(
@@ -68,10 +68,13 @@ def build_stair_planning(setup: Setup) -> Station:
     station.add(
         "motion_planner",
         lambda: MotionPlanner(
-            params.motion_planner,
-            params.zmp_preview,
-            robot,
-            "quasi_static" if quasi_static else "dynamic",
+            Walker(
+                params.motion_planner,
+                params.zmp_preview,
+                robot,
+                planning_body(robot, model),
+            ),
+            setup.mode,
             MotionPredictor(
                 model,
                 robot,
@@ -80,7 +83,6 @@ def build_stair_planning(setup: Setup) -> Station:
                 collision_hulls(robot),
                 SelfDistanceMeter(robot),
             ),
-            planning_body(robot, model),
         ),
     )
     station.add(
@@ -89,7 +91,7 @@ def build_stair_planning(setup: Setup) -> Station:
             params.executive,
             setup.stand.plan,
             thinking.quasi_static_climb_planning
-            if quasi_static
+            if setup.mode == "quasi_static"
             else thinking.climb_planning,
         ),
     )

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from pydrake.math import RigidTransform
+from pydrake.math import RigidTransform, VectorToSkewSymmetric
 
 from footfall.models.values.value import Value
 from footfall.models.values.vector import Vector
@@ -75,6 +75,9 @@ def sole_contact(
 
 def contact_wrench_cone(half_length: float, half_width: float, mu: float) -> Vector:
     """Computes A of the cone A w <= 0 in closed form (Caron 2015, Eqs. 8 to 13).
+
+    |f_x|, |f_y| <= mu f_z; f_z >= 0; |tau_x| <= Y f_z; |tau_y| <= X f_z;
+    tau_min <= tau_z <= tau_max, of a sole of half-lengths X, Y.
 
     Rows: four of friction, four of the centre of pressure, eight of the yaw torque.
     With half_length = half_width = 0 they say that a point exerts no torque.
@@ -219,9 +222,8 @@ def _rotation_and_lever(
     X_WC: RigidTransform, p_WQ: Vector | None
 ) -> tuple[Vector, Vector]:
     """Computes R_WC and the cross-product matrix of p_QC in W."""
-    x, y, z = X_WC.translation() - (np.zeros(3) if p_WQ is None else p_WQ)
-    lever = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.asarray(X_WC.rotation().matrix()), lever
+    p_QC = X_WC.translation() - (np.zeros(3) if p_WQ is None else p_WQ)
+    return np.asarray(X_WC.rotation().matrix()), VectorToSkewSymmetric(p_QC)
 
 
 def _check(half_length: float, half_width: float, mu: float) -> None:

@@ -64,7 +64,10 @@ def zmp_of_rates(
     angular_rate: Vector,
     zmp_height: Vector | float,
 ) -> Vector:
-    """Eq. 20 itself.
+    """Computes the ZMP from mass, CoM and the rates of momentum (Eq. 20).
+
+    p_x = (m g c_x + p_z P'_x - L'_y) / (m g + P'_z),
+    p_y = (m g c_y + p_z P'_y + L'_x) / (m g + P'_z).
 
     Args:
         mass: m, kg.
@@ -89,7 +92,9 @@ def filter_motion(
     zmp_multibody: Vector,
     gains: PreviewGains,
 ) -> ComMotion:
-    """Applies the second preview stage, Eq. 19: p_ref2 = p_ref1 - p_MB is followed too.
+    """Applies the published CWTG2: a second preview of p_ref2 = p_ref1 - p_MB (Eq. 19).
+
+    What it asks for is added to the motion; `cwtg2: preview` of the crossing.
 
     The motion must rest for two previews before its first step: the first stage moves
     one preview ahead of the step, and the second previews what the first does.

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import cdd
 import numpy as np
+from pydrake.math import VectorToSkewSymmetric
 
 from footfall.models.values.vector import Vector
 from footfall.systems.balance.contact_wrench_cone import Contact, stance_generators
@@ -44,8 +45,7 @@ class GravitoInertialCone:
         With P the world's origin they are H_stab, and hold for the force per mass
         p_Gdd - g with the torque per mass p_G x (p_Gdd - g) + L_Gd / m.
         """
-        x, y, z = p_WP - self.p_WQ
-        lever = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+        lever = VectorToSkewSymmetric(p_WP - self.p_WQ)
         T = np.eye(6)
         T[3:, :3] = lever
         return np.asarray(self.rows @ T)

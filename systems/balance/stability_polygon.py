@@ -76,6 +76,9 @@ def static_polygon(
 ) -> StabilityPolygon:
     """Computes the static-stability polygon of the CoM (stair paper, Eqs. 4 and 5).
 
+    sum f_i = m (p''_G - g) (4), sum p_i x f_i + tau_i = m p_G x (p''_G - g) + L'_G (5),
+    with p''_G = L'_G = 0: all p_G for which there are f_i, tau_i within their cones.
+
     Args:
         contacts: the stance.
         method: "section" for the rows that bound it, "double_description" for those

@@ -9,6 +9,7 @@ near one, without which double description in floats is unreliable.
 from dataclasses import dataclass
 
 import numpy as np
+from pydrake.math import VectorToSkewSymmetric
 
 from footfall.models.values.vector import Vector
 from footfall.systems.balance.zmp_preview import GRAVITY
@@ -68,7 +69,7 @@ def zmp_slice(p_QCom: Vector, plane_height: float) -> WrenchSlice:
     lever = z - plane_height
     if lever == 0.0:
         raise ValueError(f"plane_height: must differ from the CoM's, got {z} m")
-    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    cross = VectorToSkewSymmetric(p_QCom)
     force = np.array([x / lever, y / lever, 1.0])
     turn = np.zeros((3, 2))
     turn[0, 0] = turn[1, 1] = -1.0 / lever

@@ -111,8 +111,9 @@ def cart(period: float) -> tuple[Vector, Vector]:
 def preview_gains(params: ZmpPreviewParams) -> PreviewGains:
     """Solves the preview servo problem (Kajita 2003, Eqs. 11 to 14).
 
-    Minimises sum Q_e e^2 + dx' Q_x dx + R du^2, where e is the ZMP error and dx, du
-    are the increments of state and jerk.
+    J = sum Q_e e^2 + dx' Q_x dx + R du^2 (11), u(k) = -G_i sum e - G_x x -
+    sum_j G_p(j) p_ref(k + j) (12 to 14), where e is the ZMP error and dx, du are the
+    increments of state and jerk.
 
     Args:
         params: see there.

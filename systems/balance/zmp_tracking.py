@@ -31,7 +31,11 @@ _BAND = 6
 def height_factor(
     com_height: Vector, zmp_height: Vector, com_acceleration: Vector
 ) -> Vector:
-    """Computes c of p = com - c a, the ZMP's shift by an acceleration, s^2.
+    """Computes c of p = com - c a, the ZMP of a single mass whose height varies.
+
+    p_x = (m g c_x + p_z m c''_x - m (c_z c''_x - c_x c''_z)) / (m g + m c''_z) of the
+    obstacle paper's Eq. 14 is p_x = c_x - c''_x (c_z - p_z) / (g + c''_z). Used whole,
+    it does not need c''_z much less than g, which the paper assumes for Eq. 15.
 
     Args:
         com_height: z of the CoM, (n,), m.

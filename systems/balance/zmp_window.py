@@ -22,12 +22,16 @@ from footfall.systems.balance.zmp_preview import (
 
 @dataclass(frozen=True, eq=False)
 class WindowGains:
-    """The first row of Eq. 18: jerk = -(K_x x + K_p p_ref)."""
+    """The first row of Eq. 18: jerk = -(K_x x + K_p p_ref).
+
+    u = -(P_u' P_u + R/Q I)^-1 P_u' (P_x x - p_ref).
+    """
 
     P_x: Vector
-    """Eq. 16: what the state alone does to the ZMP of the next ticks, (N_L, 3)."""
+    """Of Eq. 16, p = P_x x + P_u u: effect of the state on the ZMP of the next ticks,
+    (N_L, 3)."""
     P_u: Vector
-    """Eq. 16: what the jerks do to it, (N_L, N_L)."""
+    """Of Eq. 16: effect of the jerks, (N_L, N_L)."""
     K_x: Vector
     """(3,)."""
     K_p: Vector
@@ -35,7 +39,9 @@ class WindowGains:
 
 
 def window_gains(params: ZmpPreviewParams) -> WindowGains:
-    """Solves Eq. 17 once: the law is the same at every tick.
+    """Solves the preview window of Eq. 17 for its feedback law, the same at every tick.
+
+    min over u of Q / 2 |p - p_ref|^2 + R / 2 |u|^2 (17), p = P_x x + P_u u (16).
 
     Args:
         params: period, com_height, preview_time, error_weight (Q) and jerk_weight (R);

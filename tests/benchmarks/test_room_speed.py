@@ -25,6 +25,7 @@ from footfall.systems.perception.room.environment_xml import (
 from footfall.systems.perception.room.floor import FloorParams, extract_floor
 from footfall.systems.planning.footsteps.footstep_params import FootstepPlannerParams
 from footfall.systems.planning.motion.motion import plan_motion
+from footfall.systems.planning.motion.motion_task import MotionTask, Walker
 from footfall.systems.planning.path.path_footsteps import plan_path_footsteps
 from footfall.systems.planning.path.path_params import PathPlannerParams
 from footfall.systems.planning.path.path_search import plan_path
@@ -98,14 +99,7 @@ def test_whole_planning(benchmark: Any, seed: int) -> None:
     com = np.array([*START, params.motion_planner.com_height])
 
     def whole() -> MotionPlan:
-        return plan_motion(
-            feet,
-            com,
-            plan(environment).footsteps,
-            np.zeros((0, 3)),
-            params.motion_planner,
-            params.zmp_preview,
-            JVRC1,
-        )
+        walker = Walker(params.motion_planner, params.zmp_preview, JVRC1)
+        return plan_motion(MotionTask(feet, com, plan(environment).footsteps), walker)
 
     assert benchmark(whole).duration > 15.0

@@ -31,6 +31,7 @@ from footfall.systems.perception.planes.staircase_merging import merge_staircase
 from footfall.systems.planning.executive.path_executive import blocking_box
 from footfall.systems.planning.motion.motion_choice import Mode
 from footfall.systems.planning.motion.motion_stop import stop_early
+from footfall.systems.planning.motion.motion_task import Walker
 from footfall.systems.planning.whole_body.whole_body_plan import (
     WholeBody,
     planning_body,
@@ -291,10 +292,7 @@ def _stop(
         motion,
         share * motion.duration,
         parameters.footstep_planner.stance_width,
-        parameters.motion_planner,
-        parameters.zmp_preview,
-        model,
-        body,
+        Walker(parameters.motion_planner, parameters.zmp_preview, model, body),
     )
 
 

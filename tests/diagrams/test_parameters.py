@@ -56,6 +56,7 @@ from footfall.systems.perception.scan_assembler import (
 from footfall.systems.planning.crossing.params import CrossingParams, HighCrossingParams
 from footfall.systems.planning.motion.motion_params import MotionPlannerParams
 from footfall.systems.planning.motion.motion_planner import MotionPlanner
+from footfall.systems.planning.motion.motion_task import Walker
 from footfall.systems.planning.motion.swing_trajectory import SwingParams
 from footfall.systems.planning.path.path_params import PathPlannerParams
 from footfall.systems.planning.path.path_planner import PathPlanner
@@ -109,7 +110,7 @@ BUILT: dict[type[Parameters], Callable[[Any], object]] = {
     DepthCloudParams: lambda p: DepthCloud(p, []),
     FloorParams: FloorExtractor,
     LandingParams: lambda p: LandingAdaptor(p, np.zeros(12)),
-    MotionPlannerParams: lambda p: MotionPlanner(p, ZmpPreviewParams(), JVRC1),
+    MotionPlannerParams: lambda p: MotionPlanner(Walker(p, ZmpPreviewParams(), JVRC1)),
     MoverParams: lambda p: p.solid(),
     ObstacleClustererParams: ObstacleClusterer,
     ObstacleFinderParams: ObstacleFinder,

@@ -57,6 +57,7 @@ from footfall.systems.planning.footsteps.footstep_planner import FootstepPlanner
 from footfall.systems.planning.motion.motion_params import MotionPlannerParams
 from footfall.systems.planning.motion.motion_planner import MotionPlanner
 from footfall.systems.planning.motion.motion_player import MotionPlayer
+from footfall.systems.planning.motion.motion_task import Walker
 from footfall.systems.planning.path.path_footstep_planner import PathFootstepPlanner
 from footfall.systems.planning.path.path_planner import PathPlanner
 from footfall.systems.planning.whole_body.whole_body_plan import planning_body
@@ -136,7 +137,7 @@ FACTORIES: dict[type[LeafSystem], Callable[[], LeafSystem]] = {
     KinematicState: lambda: KinematicState(_plant(), JVRC1),
     LandingAdaptor: lambda: LandingAdaptor(LandingParams(), np.zeros(12)),
     MotionPlanner: lambda: MotionPlanner(
-        MotionPlannerParams(), ZmpPreviewParams(), JVRC1
+        Walker(MotionPlannerParams(), ZmpPreviewParams(), JVRC1)
     ),
     MotionPlayer: lambda: MotionPlayer(320),
     ObstacleClusterer: ObstacleClusterer,

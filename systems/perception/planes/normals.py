@@ -6,6 +6,7 @@ Stair paper (Zhang, Caron, Nakamura 2016), Sec. 4.1 and Algorithm 1, lines 1 to 
 import numpy as np
 import small_gicp
 from numpy.typing import NDArray
+from pydrake.math import VectorToSkewSymmetric
 
 from footfall.models.values.vector import Vector
 
@@ -37,8 +38,7 @@ def gravity_aligned_rotation(gravity: Vector) -> Vector:
     cosine = float(up[2])
     if cosine < -1.0 + 1e-12:
         return np.diag([1.0, -1.0, -1.0])
-    x, y, z = axis
-    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    cross = VectorToSkewSymmetric(axis)
     return np.asarray(np.eye(3) + cross + cross @ cross / (1.0 + cosine))
 
 
@@ -84,7 +84,12 @@ def orient_normals(
 
 
 def normal_distance(a: Vector, b: Vector) -> Vector:
-    """Computes Eq. 2, D_n = 1 - n_a . n_b, of unit vectors (..., 3); in [0, 2]."""
+    """Computes the normal distance D_n = 1 - n_a . n_b (stair paper, Eq. 2), in [0, 2].
+
+    Args:
+        a: unit vectors, (..., 3).
+        b: likewise.
+    """
     return np.asarray(1.0 - np.sum(a * b, axis=-1), dtype=np.float64)
 
 

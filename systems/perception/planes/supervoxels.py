@@ -37,7 +37,9 @@ def supervoxel_distance(
     seed_resolution: float,
     influence: float,
 ) -> Vector:
-    """D of Eq. 1 between voxels and supervoxel centres.
+    """Computes the distance D of voxels to supervoxel centres (stair paper, Eq. 1).
+
+    D = sqrt(mu |p_i - p_j|^2 / (3 R_seed^2) + (1 - mu) D_n(n_i, n_j)^2), D_n of Eq. 2.
 
     Args:
         p_i: positions, (..., 3), m.

@@ -8,7 +8,7 @@ from footfall.models.robots.self_distance import SelfDistance
 from footfall.models.values.feet import FEET
 from footfall.models.values.planned import ContactPhase
 from footfall.models.values.vector import Vector
-from footfall.systems.planning.crossing.course import Course
+from footfall.systems.planning.crossing.crossing_problem import CrossingProblem
 from footfall.systems.planning.crossing.feet import crossing_rows, section_of
 from footfall.systems.planning.crossing.feet_adaptor import Repairs, leg_gaps
 from footfall.systems.planning.crossing.quasi_static_check import (
@@ -35,56 +35,56 @@ TORQUE_TICK = 0.1
 """Between the postures of a crossing whose torques are looked at, s."""
 
 
-def hopeless(
-    course: Course,
+def refused_even_if_balanced(
+    problem: CrossingProblem,
     motion: BodyMotion,
     zmps: list[Vector],
     repairs: Repairs,
     contacts: Vector,
 ) -> bool:
-    """Whether the motion would be refused however well its ZMP were followed."""
-    report = appraise(course, motion, zmps, repairs, contacts)
+    """Tells whether a motion would be refused even if its ZMP were followed exactly."""
+    report = appraise(problem, motion, zmps, repairs, contacts)
     followed = dataclasses.replace(report, zmp_error_after=(0.0, 0.0))
-    return bool(refusal_of(followed, course.crossing))
+    return bool(refusal_of(followed, problem.crossing))
 
 
 def appraise(
-    course: Course,
+    problem: CrossingProblem,
     motion: BodyMotion,
     zmps: list[Vector],
     repairs: Repairs,
     contacts: Vector,
 ) -> CrossingReport:
-    """How well the motion does, from its joints at `rows`."""
-    time = course.time[course.rows]
+    """Evaluates a crossing motion: gaps, ZMP, limits, torques, self-distance."""
+    time = problem.schedule.time[problem.rows]
     gaps = leg_gaps(
-        course.body.leg,
+        problem.body.leg,
         motion.angles,
-        course.soles(repairs, time),
-        course.obstacles,
-        tuple(section_of(obstacle) for obstacle in course.obstacles),
-        [0.0] * len(course.obstacles),
-        course.ground,
+        problem.soles(repairs, time),
+        problem.obstacles,
+        tuple(section_of(obstacle) for obstacle in problem.obstacles),
+        [0.0] * len(problem.obstacles),
+        problem.ground,
     )
     torque, torque_joint = 0.0, ""
-    if course.mode == "dynamic":
-        torque, torque_joint = _torque(course, motion, contacts)
-    limit, limit_joint = _limit(course, motion)
-    nearest = _self_distance(course, motion)
+    if problem.mode == "dynamic":
+        torque, torque_joint = _torque(problem, motion, contacts)
+    limit, limit_joint = _limit(problem, motion)
+    nearest = _self_distance(problem, motion)
     return CrossingReport(
         gap=float(gaps.min()) if gaps.size else float("inf"),
         short=float(motion.short.max()),
-        zmp_error_before=_zmp_error(course, zmps[0]),
-        zmp_error_after=_zmp_error(course, zmps[-1]),
+        zmp_error_before=_zmp_error(problem, zmps[0]),
+        zmp_error_after=_zmp_error(problem, zmps[-1]),
         repairs=repairs,
-        obstacles=course.obstacles,
-        keys=course.keys,
+        obstacles=problem.obstacles,
+        keys=problem.keys,
         phases=tuple(
             (
-                min(step.lift for step in course.steps if step.obstacle == k),
-                max(step.land for step in course.steps if step.obstacle == k),
+                min(step.lift for step in problem.schedule.steps if step.obstacle == k),
+                max(step.land for step in problem.schedule.steps if step.obstacle == k),
             )
-            for k in range(len(course.obstacles))
+            for k in range(len(problem.obstacles))
         ),
         torque_share=torque,
         torque_joint=torque_joint,
@@ -96,23 +96,23 @@ def appraise(
     )
 
 
-def _limit(course: Course, motion: BodyMotion) -> tuple[float, str]:
-    """How near a leg's joint comes to its limits in a crossing, rad, and which."""
-    window = crossing_rows(course.time[course.rows], course.steps)
+def _limit(problem: CrossingProblem, motion: BodyMotion) -> tuple[float, str]:
+    """Computes the least distance of a leg joint to its limits, rad, and which."""
+    window = crossing_rows(problem.schedule.time[problem.rows], problem.schedule.steps)
     if not window.any():
         return float("inf"), ""
-    angles, leg = motion.angles[window], course.body.leg
+    angles, leg = motion.angles[window], problem.body.leg
     least = np.minimum(angles - leg.lower, leg.upper - angles).min(axis=0)
     side, joint = np.unravel_index(int(least.argmin()), least.shape)
-    names = course.body.robot.leg_joints[FEET[int(side)]]
+    names = problem.body.robot.leg_joints[FEET[int(side)]]
     return float(least[side, joint]), names[int(joint)]
 
 
-def _self_distance(course: Course, motion: BodyMotion) -> SelfDistance:
-    """The two bodies of the robot that come nearest to each other in a crossing."""
-    window = crossing_rows(course.time[course.rows], course.steps)
-    looked = motion.q[window][:: max(1, round(SELF_TICK / course.tick))]
-    meter = course.body.meter
+def _self_distance(problem: CrossingProblem, motion: BodyMotion) -> SelfDistance:
+    """Finds the two bodies of the robot that come nearest to each other."""
+    window = crossing_rows(problem.schedule.time[problem.rows], problem.schedule.steps)
+    looked = motion.q[window][:: max(1, round(SELF_TICK / problem.tick))]
+    meter = problem.body.meter
     return min(
         (meter.nearest(q, SELF_RANGE) for q in looked),
         key=lambda found: found.distance,
@@ -120,37 +120,41 @@ def _self_distance(course: Course, motion: BodyMotion) -> SelfDistance:
     )
 
 
-def _torque(course: Course, motion: BodyMotion, contacts: Vector) -> tuple[float, str]:
-    """Largest share of an effort limit while one foot carries in a crossing."""
-    window = crossing_rows(course.time[course.rows], course.steps)
-    carrying = np.where(window[:, None], contacts[course.rows], 0.0)
+def _torque(
+    problem: CrossingProblem, motion: BodyMotion, contacts: Vector
+) -> tuple[float, str]:
+    """Computes the largest share of an effort limit in single support."""
+    window = crossing_rows(problem.schedule.time[problem.rows], problem.schedule.steps)
+    carrying = np.where(window[:, None], contacts[problem.rows], 0.0)
     share, joint, _ = single_support_torque(
-        course.body,
-        course.context,
+        problem.body,
+        problem.context,
         motion.q,
-        course.tick,
+        problem.tick,
         carrying,
-        max(1, round(TORQUE_TICK / course.crossing.sampling)),
+        max(1, round(TORQUE_TICK / problem.crossing.sampling)),
     )
     return share, joint
 
 
 def static_balance(
-    course: Course,
+    problem: CrossingProblem,
     motion: BodyMotion,
     com: Vector,
     poses: Vector,
     contacts: Vector,
     phases: tuple[ContactPhase, ...],
 ) -> StaticBalance:
-    """What a slow motion keeps; torques at a few moments of the crossings."""
-    quasi = course.crossing.quasi_static
-    looked = np.flatnonzero(crossing_rows(course.time[course.rows], course.steps))
-    looked = looked[:: max(1, round(TORQUE_TICK / course.crossing.sampling))]
-    at = course.rows[looked]
+    """Computes margin and torques of a quasi-static motion at rest."""
+    quasi = problem.crossing.quasi_static
+    looked = np.flatnonzero(
+        crossing_rows(problem.schedule.time[problem.rows], problem.schedule.steps)
+    )
+    looked = looked[:: max(1, round(TORQUE_TICK / problem.crossing.sampling))]
+    at = problem.rows[looked]
     share, joint, row = worst_torque(
-        course.body,
-        course.context,
+        problem.body,
+        problem.context,
         motion.q[looked],
         poses[at],
         contacts[at],
@@ -160,17 +164,17 @@ def static_balance(
         phases,
         com,
         poses,
-        course.walking.period,
-        course.body.robot.sole,
+        problem.walking.period,
+        problem.body.robot.sole,
         quasi.friction,
     )
-    return StaticBalance(margin, share, joint, float(course.time[at[row]]))
+    return StaticBalance(margin, share, joint, float(problem.schedule.time[at[row]]))
 
 
-def _zmp_error(course: Course, p_MB: Vector) -> tuple[float, float]:
-    """Largest ZMP error from phase 1 to 3 of any crossing, x and y of W, m."""
-    inside = crossing_rows(course.time[course.rows], course.steps)
+def _zmp_error(problem: CrossingProblem, p_MB: Vector) -> tuple[float, float]:
+    """Computes the largest ZMP error from phase 1 to 3, x and y of W, m."""
+    inside = crossing_rows(problem.schedule.time[problem.rows], problem.schedule.steps)
     if not inside.any():
         return 0.0, 0.0
-    error = np.abs(course.zmp[course.rows, :2] - p_MB)[inside]
+    error = np.abs(problem.schedule.zmp[problem.rows, :2] - p_MB)[inside]
     return float(error[:, 0].max()), float(error[:, 1].max())

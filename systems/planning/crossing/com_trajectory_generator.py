@@ -23,6 +23,7 @@ from footfall.systems.balance.zmp_tracking import generate_varying_height
 from footfall.systems.balance.zmp_window import generate_by_window, window_gains
 
 FORMS = ("exact", "preview", "window")
+FILTER_FORMS = ("exact", "preview")
 
 ComTracker: TypeAlias = Callable[[Vector, Vector], ComMotion]
 """From a ZMP reference, (n, 2), m, and height factors, (n,), s^2, to the motion."""

@@ -23,16 +23,16 @@ from footfall.systems.planning.crossing.footsteps import in_the_way, plan_crossi
 from footfall.systems.planning.crossing.motion import plan_crossing
 from footfall.systems.planning.crossing.params import (
     CrossingParams,
-    Mode,
     ways_of_crossing,
 )
 from footfall.systems.planning.crossing.quasi_static_check import balance_of
 from footfall.systems.planning.crossing.quasi_static_unit import quasi_static_unit
 from footfall.systems.planning.crossing.report import refusal_of
-from footfall.systems.planning.crossing.seen_way import seen_leg
+from footfall.systems.planning.crossing.seen_floor import plan_walk_segment
 from footfall.systems.planning.footsteps.foothold import Refusal
 from footfall.systems.planning.footsteps.footstep_params import FootstepPlannerParams
 from footfall.systems.planning.motion.motion_params import MotionPlannerParams
+from footfall.systems.planning.motion.motion_task import Mode
 from footfall.systems.planning.whole_body.whole_body_plan import (
     WholeBody,
     waist_above_com,
@@ -170,7 +170,7 @@ class CrossingPlanner(LeafSystem):
         sole = self._body.robot.sole
         heading = np.angle(np.exp(1j * feet[:, 5]).sum())
         start = np.array([*feet[:, :2].mean(axis=0), heading])
-        leg = seen_leg(seen, start, goal, sole)
+        leg = plan_walk_segment(seen, start, goal, sole)
         if isinstance(leg, Refusal):
             plan = FootstepPlan((), "infeasible", leg.reason)
             return CrossingPlan(plan, self._standing)

@@ -30,13 +30,18 @@ class FeasibilityMaps:
     Z_hds: Vector
     """Waist heights, (m,), m."""
     begin: Vector
-    """Eq. 6: the CoM over the rear foot, as a quasi-static phase 2 begins, (m, n)."""
+    """Eq. 6, -F_W / 2 <= c_x(T^P1) <= F_W / 2: the CoM over the rear foot as a
+    quasi-static phase 2 begins, (m, n)."""
     within: Vector
-    """Eq. 7: the CoM anywhere over or between the feet, (m, n)."""
+    """Eq. 7, -F_W / 2 <= c_x(t) <= X_ads + F_W / 2: the CoM over or between the feet,
+    (m, n)."""
     end: Vector
-    """Eq. 8: the CoM over the front foot, as a quasi-static phase 2 ends, (m, n)."""
+    """Eq. 8, X_ads - F_W / 2 <= c_x(T^P2) <= X_ads + F_W / 2: the CoM over the front
+    foot as a quasi-static phase 2 ends, (m, n)."""
     dynamic: Vector
-    """Eqs. 10 to 13 with Eq. 22: the waist at delta_DS X_ads, (m, n)."""
+    """Eq. 22, X_hds = delta_DS X_ads: the waist of a dynamic crossing, (m, n). The ZMP
+    of phase 2 (Eqs. 10 to 12, as Eqs. 6 to 8 with p_x for c_x) is not evaluated here:
+    no motion is known yet. It is that of the motion, see `refusal_of`."""
 
     @property
     def quasi_static(self) -> Vector:
@@ -52,7 +57,7 @@ def feasibility_maps(
     delta_ds: float = 0.5,
     samples: int = 9,
 ) -> FeasibilityMaps:
-    """Draws the four maps for a robot's legs.
+    """Computes the feasibility maps of a robot's legs (obstacle paper, Fig. 2).
 
     Args:
         section: the obstacle, with its margins where they are to be kept.

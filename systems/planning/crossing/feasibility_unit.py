@@ -42,7 +42,7 @@ class FeasibilityParams(Parameters):
     s_h: float = number(0.045, "m", least=0.0)
     """Margin above the obstacle, m; likewise."""
     delta_ds: float = number(0.5, above=0.0, below=1.0)
-    """delta_DS of Eq. 22: share of the step length at which the waist is."""
+    """delta_DS of Eq. 22, X_hds = delta_DS X_ads: where over the step the waist is."""
     waist_travel: float = number(0.08, "m", least=0.0)
     """How far before and behind X_hds the waist is while both feet are down, m: the
     double support is short, but not nothing."""
@@ -64,18 +64,18 @@ class Checked(NamedTuple):
     """Which constraints configurations of the double support meet."""
 
     reached: Vector
-    """Eq. 1: both ankles are within reach of the hips, (n,), 0 or 1."""
+    """Whether both ankles are within reach of the hips, (n,), 0 or 1."""
     limits: Vector
-    """Eq. 1: by how much each joint of either leg exceeds its limits, (n, 6), rad;
-    not positive where it does not."""
+    """Eq. 1, q_min <= q <= q_max: by how much each joint of either leg exceeds its
+    limits, (n, 6), rad; not positive where it does not."""
     gap: Vector
-    """Eq. 5: distance of the legs to the obstacle, (n,), m: below the knee their
-    outline, above it the line to the hip."""
+    """Eq. 5, A_{x_i x_i+1 o_j o_j+1} < 0, as a distance of the legs to the obstacle,
+    (n,), m: below the knee of their outline, above it of the line to the hip."""
     knees: Vector
-    """Rear ankle to the knee of the rear and of the front leg, (n, 2), m."""
+    """Distance from the rear ankle to the knees of rear and front leg, (n, 2), m."""
 
     def within(self, margin: float) -> Mask:
-        """Which are in reach and keep a margin, rad, from the joint limits, (n,)."""
+        """Tells which are in reach and keep a margin, rad, from the limits, (n,)."""
         fine: Mask = (self.reached > 0.5) & (self.limits <= -margin).all(axis=1)
         return fine
 
@@ -100,7 +100,10 @@ def check_double_support(
     front: Vector,
     leg: LegModel,
 ) -> Checked:
-    """Eqs. 1, 3, 4 and 5 for configurations of the double support.
+    """Evaluates Eqs. 1 and 5 for double supports, whose feet stand (Eqs. 3 and 4).
+
+    q_min <= q <= q_max (1); x_1 = x_5 = const (3), z_1 = z_5 = 0 (4);
+    A_{x_i x_i+1 o_j o_j+1} < 0 (5).
 
     Args:
         section: the obstacle.
@@ -117,7 +120,7 @@ def check_double_support(
 
 
 def _legs(X_ads: Vector, X_hds: Vector, Z_hds: Vector, leg: LegModel) -> _Legs:
-    """Eq. 1: the legs, and whether they can."""
+    """Solves the IK of both legs and tests q_min <= q <= q_max (Eq. 1)."""
     n = len(X_ads)
     hips = np.array([leg.hips[foot] for foot in FEET])
     soles = np.zeros((n, 2, 6))
@@ -139,7 +142,7 @@ def _clearance(
     front: Vector,
     leg: LegModel,
 ) -> tuple[Vector, Vector]:
-    """Eq. 5: gaps, (n,), m, and knees, (n, 2), m, of soles and angles of the legs."""
+    """Computes gaps (Eq. 5), (n,), m, and knees, (n, 2), m, of the legs."""
     soles, angles = (part.reshape(-1, 6) for part in legs)
     points, knee = outline_points(leg, FEET[0], angles, soles)
     hip = np.repeat(np.column_stack([X_hds, Z_hds]), 2, axis=0)

@@ -164,10 +164,12 @@ def _least(gaps: Vector) -> float:
 def ankle_displacement(
     leg: LegModel, foot: Foot, angles: Vector, p_K: Vector, depth: float
 ) -> float:
-    """How far the ankle moves for a point of the shank to move by dS (Eqs. 23 to 25).
+    """Computes the ankle's displacement dP for one dS of a shank point (Eqs. 23 to 25).
 
-    dP = J_p J_s^+ dS, with both Jacobians (3 x 4) of hip pitch, roll, yaw and knee in a
-    frame attached to the waist; dS is horizontal.
+    dS = J_s dq (23), dP = J_p dq (24), so dP = J_p J_s^+ dS (25), with both Jacobians
+    (3 x 4) of hip pitch, roll, yaw and knee in a frame attached to the waist; dS is
+    horizontal. The paper takes J_s at the point where the leg meets the boundary of
+    the obstacle; here a point half-way down the shank stands for it.
 
     Args:
         leg: the legs.
@@ -207,7 +209,11 @@ def _shank_chain(
 def penetration_path(
     depth: Vector, share: Vector, leverage: Vector, path: Vector
 ) -> Vector | None:
-    """The third repair as a smooth displacement of the second foot's way.
+    """Plans the third repair: a smooth displacement of the second foot's trajectory.
+
+    The paper displaces by dP (Eq. 25) where the leg penetrates; here the deepest
+    penetrations of phase 3 set a curve over the whole of it, so that the foot goes
+    smoothly.
 
     Args:
         depth: how deep the leg is in the inflated obstacle at each row of phase 3,

@@ -14,6 +14,7 @@ from pydrake.math import RigidTransform, RollPitchYaw
 
 from footfall.models.robots.robot import Sole
 from footfall.models.values.feet import FEET, Foot, other_foot
+from footfall.models.values.geometry import rotate
 from footfall.models.values.obstacle import (
     Feasibility,
     KeyConfiguration,
@@ -23,7 +24,7 @@ from footfall.models.values.obstacle import (
 from footfall.models.values.planned import Footstep, FootstepPlan
 from footfall.models.values.vector import Vector
 from footfall.systems.planning.footsteps.approach import FloorStep, plan_approach
-from footfall.systems.planning.footsteps.foothold import Refusal, rotate, wrap
+from footfall.systems.planning.footsteps.foothold import Refusal, wrap
 from footfall.systems.planning.footsteps.footstep_params import FootstepPlannerParams
 
 CORRIDOR = 0.25

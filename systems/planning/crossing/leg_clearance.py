@@ -32,13 +32,16 @@ class Section:
 
 
 def cross_product(a: Vector, b: Vector) -> Vector:
-    """Of planar vectors, (..., 2)."""
+    """Computes a_x b_y - a_y b_x of planar vectors, (..., 2)."""
     product: Vector = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
     return product
 
 
 def segments_intersect(p: Vector, q: Vector, o: Vector, r: Vector) -> Vector:
-    """Whether segments p-q and o-r cross, (...), as 0 or 1 (Eqs. 5 and 9).
+    """Tells whether segments p-q and o-r cross, (...), as 0 or 1 (Eqs. 5 and 9).
+
+    A = (q - p) x (r - o) < 0 of Eq. 9 alone, as printed, holds for segments far apart
+    too; so the sides of both are looked at.
 
     The cross products of Eq. 9 tell on which side of one segment the ends of the other
     lie; the segments cross where both pairs of ends lie on different sides.
@@ -49,7 +52,7 @@ def segments_intersect(p: Vector, q: Vector, o: Vector, r: Vector) -> Vector:
 
 
 def outline_gap(points: Vector, section: Section) -> Vector:
-    """Distance of closed outlines to an obstacle, m; negative where they meet.
+    """Computes the signed distance of closed outlines to an obstacle.
 
     Args:
         points: corners in order, (n, k, 2), m; the ground is under z = 0.

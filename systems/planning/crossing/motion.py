@@ -14,20 +14,32 @@ from footfall.models.values.feet import FEET
 from footfall.models.values.obstacle import KeyConfiguration, Obstacle
 from footfall.models.values.planned import Footstep
 from footfall.models.values.vector import Vector
-from footfall.systems.balance.dynamic_filter import filter_motion_varying_height
-from footfall.systems.balance.zmp_preview import GRAVITY, ZmpPreviewParams
+from footfall.systems.balance.dynamic_filter import (
+    filter_motion,
+    filter_motion_varying_height,
+)
+from footfall.systems.balance.zmp_preview import (
+    GRAVITY,
+    ZmpPreviewParams,
+    preview_gains,
+)
 from footfall.systems.planning.crossing.appraisal import (
     appraise,
-    hopeless,
+    refused_even_if_balanced,
     static_balance,
 )
 from footfall.systems.planning.crossing.com_trajectory_generator import com_tracker
-from footfall.systems.planning.crossing.course import Course
-from footfall.systems.planning.crossing.params import CrossingParams, Mode, slowed
+from footfall.systems.planning.crossing.crossing_problem import (
+    CrossingProblem,
+    CrossingStart,
+    Schedule,
+)
+from footfall.systems.planning.crossing.params import CrossingParams, slowed
 from footfall.systems.planning.crossing.posture import arm_swing, waist_rpy
 from footfall.systems.planning.crossing.report import CrossingMotion
 from footfall.systems.planning.crossing.timing import time_steps, zmp_reference
 from footfall.systems.planning.motion.motion_params import MotionPlannerParams
+from footfall.systems.planning.motion.motion_task import Mode
 from footfall.systems.planning.motion.step_timing import contact_phases, zmp_weight
 from footfall.systems.planning.whole_body.whole_body_plan import (
     BodyMotion,
@@ -81,48 +93,48 @@ def plan_crossing(
     weight = zmp_weight(time, end, walking) if free else None
     rpy = waist_rpy(time, steps, feet, crossing, mode)
     arms = arm_swing(time, steps, crossing, mode)
-    course = Course(
-        time,
-        steps,
-        feet,
-        com,
-        zmp,
-        rpy,
-        arms,
-        waist_over(body, com, feet, rpy[0]),
-        obstacles,
-        keys,
-        walking,
-        crossing,
-        com_tracker(crossing.cwtg1, preview, com[:2], weight),
-        body,
-        context,
-        mode,
+    problem = CrossingProblem(
+        schedule=Schedule(time=time, steps=steps, zmp=zmp, rpy=rpy, arms=arms),
+        start=CrossingStart(
+            feet=feet, com=com, waist=waist_over(body, com, feet, rpy[0])
+        ),
+        obstacles=obstacles,
+        keys=keys,
+        walking=walking,
+        crossing=crossing,
+        tracker=com_tracker(crossing.cwtg1, preview, com[:2], weight),
+        body=body,
+        context=context,
+        mode=mode,
     )
-    repairs = course.repairs()
-    moved, height, factor = course.single_mass(repairs)
-    rows = course.rows
-    motion = course.body_along(moved, height, repairs, rows)
-    zmps = [course.multibody_zmp(motion)]
+    repairs = problem.repairs()
+    moved, height, factor = problem.single_mass(repairs)
+    rows = problem.rows
+    motion = problem.body_along(moved, height, repairs, rows)
+    zmps = [problem.multibody_zmp(motion)]
     contacts = np.ones((n, 2))
     for step in steps:
         lift, land = (round(t / walking.period) for t in (step.lift, step.land))
         contacts[lift:land, FEET.index(step.foot)] = 0.0
     stages = crossing.filter_stages
-    if give_up and hopeless(course, motion, zmps, repairs, contacts):
+    if give_up and refused_even_if_balanced(problem, motion, zmps, repairs, contacts):
         stages = 0
     for _ in range(stages):
-        moved = filter_motion_varying_height(
-            moved, zmp[:, :2], course.at_every_tick(zmps[-1]), factor, preview, weight
-        )
-        motion = course.body_along(moved, height, repairs, rows, _offset(motion))
-        zmps.append(course.multibody_zmp(motion))
-    report = appraise(course, motion, zmps, repairs, contacts)
+        p_MB = problem.at_every_tick(zmps[-1])
+        if crossing.cwtg2 == "preview":
+            moved = filter_motion(moved, zmp[:, :2], p_MB, preview_gains(preview))
+        else:
+            moved = filter_motion_varying_height(
+                moved, zmp[:, :2], p_MB, factor, preview, weight
+            )
+        motion = problem.body_along(moved, height, repairs, rows, _offset(motion))
+        zmps.append(problem.multibody_zmp(motion))
+    report = appraise(problem, motion, zmps, repairs, contacts)
     spline = CubicSpline(time[rows], motion.com[:, 2])
     com = np.column_stack([moved.com, spline(time)])
-    poses, phases = course.soles(repairs, time), contact_phases(steps, end)
+    poses, phases = problem.soles(repairs, time), contact_phases(steps, end)
     if mode == "quasi_static":
-        balance = static_balance(course, motion, com, poses, contacts, phases)
+        balance = static_balance(problem, motion, com, poses, contacts, phases)
         report = dataclasses.replace(report, balance=balance)
     return CrossingMotion(
         report=report,

@@ -10,9 +10,10 @@ from footfall.models.values.feet import FEET
 from footfall.models.values.obstacle import KeyConfiguration
 from footfall.models.values.vector import Vector
 from footfall.systems.planning.crossing.feet_adaptor import Repairs
-from footfall.systems.planning.crossing.params import CrossingParams, Mode
+from footfall.systems.planning.crossing.params import CrossingParams
 from footfall.systems.planning.crossing.timing import CrossingStep
 from footfall.systems.planning.footsteps.foothold import SIDE
+from footfall.systems.planning.motion.motion_task import Mode
 from footfall.systems.planning.motion.thigh_clearance import inward_bow
 
 

@@ -8,8 +8,9 @@ from scipy.ndimage import uniform_filter1d
 from footfall.models.values.feet import other_foot
 from footfall.models.values.planned import Footstep
 from footfall.models.values.vector import Vector
-from footfall.systems.planning.crossing.params import CrossingParams, Mode
+from footfall.systems.planning.crossing.params import CrossingParams
 from footfall.systems.planning.motion.motion_params import MotionPlannerParams
+from footfall.systems.planning.motion.motion_task import Mode
 from footfall.systems.planning.motion.step_timing import (
     TimedStep,
     along_keys,

@@ -18,15 +18,14 @@ from pydrake.math import RigidTransform, RollPitchYaw
 
 from footfall.models.robots.robot import Sole
 from footfall.models.values.feet import FEET, Foot, other_foot
+from footfall.models.values.geometry import heading, rotate
 from footfall.models.values.perceived import PlaneSegment, Staircase
 from footfall.models.values.planned import Footstep
 from footfall.models.values.vector import Vector
 from footfall.systems.planning.footsteps.foothold import (
     SIDE,
     Refusal,
-    heading,
     min_width,
-    rotate,
     sole_corners,
     tilt,
     wrap,

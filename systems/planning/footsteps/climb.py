@@ -8,16 +8,15 @@ from pydrake.math import RigidTransform
 
 from footfall.models.robots.robot import Sole
 from footfall.models.values.feet import Foot, other_foot
+from footfall.models.values.geometry import heading, rotate
 from footfall.models.values.perceived import PlaneSegment
 from footfall.models.values.planned import Footstep
 from footfall.systems.planning.footsteps.foothold import (
     SIDE,
     Refusal,
     foothold_x,
-    heading,
     lateral_interval,
     min_width,
-    rotate,
     sole_pose,
     tilt,
     wrap,

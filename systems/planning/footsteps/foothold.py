@@ -13,6 +13,7 @@ from pydrake.math import RigidTransform, RollPitchYaw, RotationMatrix
 
 from footfall.models.robots.robot import Sole
 from footfall.models.values.feet import Foot
+from footfall.models.values.geometry import heading, rotate
 from footfall.models.values.perceived import PlaneSegment
 from footfall.models.values.vector import Vector
 from footfall.systems.planning.footsteps.footstep_params import FootstepPlannerParams
@@ -26,19 +27,6 @@ class Refusal:
     """Why the planner does not step there, in one line."""
 
     reason: str
-
-
-def rotate(angle: float, points: Vector) -> Vector:
-    """Horizontal points (..., 2), m, turned by `angle`, rad, about the origin."""
-    c, s = cos(angle), sin(angle)
-    turned: Vector = points @ np.array([[c, s], [-s, c]])
-    return turned
-
-
-def heading(X_WF: RigidTransform) -> float:
-    """Yaw of a frame's x axis in W, rad."""
-    x_W = X_WF.rotation().matrix()[:, 0]
-    return atan2(x_W[1], x_W[0])
 
 
 def wrap(angle: float) -> float:

@@ -9,6 +9,7 @@ from pydrake.systems.framework import Context, LeafSystem
 
 from footfall.models.robots.robot import Sole
 from footfall.models.values.feet import Foot, other_foot
+from footfall.models.values.geometry import rotate
 from footfall.models.values.perceived import Staircase
 from footfall.models.values.planned import Footstep, FootstepPlan
 from footfall.models.values.vector import Vector
@@ -19,7 +20,7 @@ from footfall.systems.planning.footsteps.climb import (
     refuse_unclimbable,
     staircase_yaw,
 )
-from footfall.systems.planning.footsteps.foothold import Refusal, front_edge, rotate
+from footfall.systems.planning.footsteps.foothold import Refusal, front_edge
 from footfall.systems.planning.footsteps.footstep_params import FootstepPlannerParams
 from footfall.systems.planning.footsteps.standing import FLOOR, HIDDEN, standing_on
 from footfall.systems.ports import eval_abstract, eval_vector

@@ -10,15 +10,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from footfall.models.robots.robot import RobotModel
 from footfall.models.values.feet import FEET, other_foot
 from footfall.models.values.planned import Footstep, MotionPlan
 from footfall.models.values.vector import Vector
-from footfall.systems.balance.zmp_preview import GRAVITY, ZmpPreviewParams, rest_state
+from footfall.systems.balance.zmp_preview import GRAVITY, rest_state
 from footfall.systems.balance.zmp_tracking import generate_varying_height, height_factor
 from footfall.systems.planning.footsteps.footstep_planner import pose_from_xyz_rpy
 from footfall.systems.planning.motion.motion_filter import follow_with_whole_body
 from footfall.systems.planning.motion.motion_params import MotionPlannerParams
+from footfall.systems.planning.motion.motion_task import MotionTask, Walker
 from footfall.systems.planning.motion.step_timing import (
     TimedStep,
     along_keys,
@@ -37,7 +37,6 @@ from footfall.systems.planning.motion.thigh_clearance import (
     raised_hip,
 )
 from footfall.systems.planning.motion.toe_off import heading, lift_heel, toe_off_pitch
-from footfall.systems.planning.whole_body.whole_body_plan import WholeBody
 
 LEVEL = 0.03
 """Heights this near each other are the same level, m."""
@@ -81,33 +80,16 @@ def schedule(
     return steps, steps[-1].land + params.lead_out
 
 
-def plan_motion(
-    feet: Vector,
-    com: Vector,
-    footsteps: tuple[Footstep, ...],
-    edges: Vector,
-    params: MotionPlannerParams,
-    preview: ZmpPreviewParams,
-    robot: RobotModel,
-    body: WholeBody | None = None,
-) -> MotionPlan:
+def plan_motion(task: MotionTask, walker: Walker) -> MotionPlan:
     """Plans the motion along footsteps, from standing to standing, beginning at time 0.
 
     Args:
-        feet: poses of both feet at the start, (2, 6), left first, level.
-        com: p_WCom at the start, (3,), at rest.
-        footsteps: where the feet go, in order; none makes a plan that stands.
-        edges: a point of the front edge of each tread, (m, 3), m.
-        params: timing and shape.
-        preview: weights of the ZMP tracking and the cart's height.
-        robot: its soles and legs.
-        body: the whole robot, whose ZMP then follows the reference (CWTG2); None to
-            plan with a single mass.
-
-    Returns:
-        The plan.
+        task: start, footsteps and edges.
+        walker: parameters and robot.
     """
-    steps, end = schedule(feet, footsteps, params)
+    feet, com, params = task.feet, task.com, walker.params
+    preview, body = walker.preview, walker.body
+    steps, end = schedule(feet, task.footsteps, params)
     n = round(end / params.period) + 1
     time: Vector = np.arange(n, dtype=np.float64) * params.period
     final = final_feet(feet, steps)
@@ -122,7 +104,7 @@ def plan_motion(
     )
     zmp[:, :2] = motion.zmp
     path = np.column_stack([motion.com, height])
-    poses, contacts, lengths = _feet(time, steps, feet, path, edges, params, robot)
+    poses, contacts, lengths = _feet(time, steps, path, task, walker)
     waist = _waist(time, steps, poses, end, params)
     if body is not None and steps:
         motion = follow_with_whole_body(
@@ -132,7 +114,7 @@ def plan_motion(
     return MotionPlan(
         start_time=0.0,
         period=params.period,
-        footsteps=footsteps,
+        footsteps=task.footsteps,
         phases=contact_phases(steps, end),
         contacts=contacts,
         foot_poses=poses,
@@ -198,15 +180,14 @@ def _com_height(
 def _feet(
     time: Vector,
     steps: tuple[Step, ...],
-    feet: Vector,
     com: Vector,
-    edges: Vector,
-    params: MotionPlannerParams,
-    robot: RobotModel,
+    task: MotionTask,
+    walker: Walker,
 ) -> tuple[Vector, Vector, Vector]:
-    """Foot poses (n, 2, 6), contacts (n, 2) and carrying lengths (n, 2)."""
+    """Computes foot poses (n, 2, 6), contacts (n, 2) and carrying lengths (n, 2)."""
+    edges, params, robot = task.edges, walker.params, walker.robot
     sole = robot.sole
-    poses = np.tile(feet, (len(time), 1, 1))
+    poses = np.tile(task.feet, (len(time), 1, 1))
     contacts = np.ones((len(time), 2))
     lengths = np.full((len(time), 2), sole.length)
     for step in steps:
@@ -227,7 +208,7 @@ def _feet(
             poses[rows, i] = lift_heel(step.start, pitch * quintic(u), sole)
             lengths[rows, i] = params.toe_strip
         rows = slice(lift, land + 1)
-        way = swing_trajectory(
+        swing = swing_trajectory(
             pose_from_xyz_rpy(poses[lift, i]),
             pose_from_xyz_rpy(step.end),
             step.land - step.lift,
@@ -239,10 +220,10 @@ def _feet(
             sole,
             params.swing,
         )
-        poses[rows, i] = np.hstack([way.positions, way.rpy])
+        poses[rows, i] = np.hstack([swing.positions, swing.rpy])
         if step.climbs:
             poses[rows, i, :3] = drawn_inwards(
-                way.positions, step.foot, step.end[5], params.climb_inward
+                swing.positions, step.foot, step.end[5], params.climb_inward
             )
         poses[land + 1 :, i] = step.end
         contacts[lift:land, i] = 0.0

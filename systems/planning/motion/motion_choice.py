@@ -2,18 +2,13 @@
 
 import dataclasses
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise, product
-from typing import Literal, TypeAlias
 
 import numpy as np
 
-from footfall.models.robots.robot import RobotModel
 from footfall.models.values.feet import FEET
-from footfall.models.values.planned import Footstep, MotionPlan
-from footfall.models.values.vector import Vector
-from footfall.systems.balance.zmp_preview import ZmpPreviewParams
+from footfall.models.values.planned import MotionPlan
 from footfall.systems.planning.motion.choice_params import ChoiceParams
 from footfall.systems.planning.motion.motion import plan_motion
 from footfall.systems.planning.motion.motion_params import MotionPlannerParams
@@ -22,15 +17,13 @@ from footfall.systems.planning.motion.motion_prediction import (
     MotionPrediction,
     MotionPredictor,
 )
+from footfall.systems.planning.motion.motion_task import Mode, MotionTask, Walker
 from footfall.systems.planning.motion.quasi_static import (
     Climb,
     plan_segments,
     unstable_segment,
 )
 from footfall.systems.planning.motion.quasi_static_motion import play_segments
-from footfall.systems.planning.whole_body.whole_body_plan import WholeBody
-
-Mode: TypeAlias = Literal["dynamic", "quasi_static"]
 
 QUASI_STATIC_TICK = 0.03
 """Between the postures of a slow motion that are looked at, s."""
@@ -38,55 +31,32 @@ GAP_SCALE = 0.01
 """A limb that is this much too near a step is as bad as twice what is allowed, m."""
 
 
-@dataclass(frozen=True)
-class MotionTask:
-    """What a motion is to be planned for."""
-
-    feet: Vector
-    """Poses of both feet at the start, (2, 6), left first, level."""
-    com: Vector
-    """p_WCom at the start, (3,), at rest, m."""
-    footsteps: tuple[Footstep, ...]
-    """Where the feet go, in order."""
-    edges: Vector
-    """A point of the front edge of each tread, (m, 3), m."""
-
-
 def choose_motion(
-    task: MotionTask,
-    mode: Mode,
-    params: MotionPlannerParams,
-    preview: ZmpPreviewParams,
-    robot: RobotModel,
-    predictor: MotionPredictor | None,
-    body: WholeBody | None = None,
+    task: MotionTask, mode: Mode, walker: Walker, predictor: MotionPredictor | None
 ) -> MotionPlan:
-    """The first motion whose prediction keeps within reach, room and torque.
+    """Chooses the first motion whose prediction keeps within reach, room and torque.
 
     Args:
         task: feet, CoM, footsteps and edges.
         mode: how the robot is to move.
-        params: shape, and what is tried.
-        preview: weights of the ZMP tracking and the cart's height.
-        robot: its soles and legs.
+        walker: parameters, what is tried among them, and robot.
         predictor: of this robot; None to take the first motion as it is.
-        body: the whole robot, whose ZMP the motion is to keep on its reference; None to
-            plan dynamic motions with a single mass.
 
     Returns:
         The plan. Where none will do it stands, and its `reason` names the quantity
         that the least bad one violates.
     """
+    params = walker.params
     choice = params.choice
     if not task.footsteps:
-        return _standing(task, params, preview, robot, "")
+        return _standing(task, walker, "")
     dynamic = mode == "dynamic"
     window = choice.torque_window if dynamic else choice.quasi_static_torque_window
-    plans = partial(_dynamic, body=body) if dynamic else _quasi_static
+    plans = _dynamic if dynamic else _quasi_static
     climbs = _climbs(task, params)
     yaw = float(task.footsteps[-1].X_WF.rotation().ToRollPitchYaw().yaw_angle())
     refusals: list[tuple[float, str]] = []
-    for plan in plans(task, params, preview, robot):
+    for plan in plans(task, walker):
         if plan.reason:
             refusals.append((np.inf, plan.reason))
         elif predictor is None or not climbs:
@@ -108,29 +78,35 @@ def choose_motion(
                 return plan
             refusals.append((excess, reason))
     reason = min(refusals, key=lambda refusal: refusal[0])[1]
-    return _standing(task, params, preview, robot, reason)
+    return _standing(task, walker, reason)
 
 
 def _no_better(
     least: float,
     choice: ChoiceParams,
     miss: float,
-    stray: float,
+    posture_error: float,
     gap: float,
     self_distance: float,
 ) -> bool:
     """Whether a motion need not be looked at further: one was refused for less."""
-    return max(kinematic_excess(miss, stray, gap, self_distance, choice)) >= least
+    return (
+        max(kinematic_excess(miss, posture_error, gap, self_distance, choice)) >= least
+    )
 
 
 def kinematic_excess(
-    miss: float, stray: float, gap: float, self_distance: float, choice: ChoiceParams
+    miss: float,
+    posture_error: float,
+    gap: float,
+    self_distance: float,
+    choice: ChoiceParams,
 ) -> tuple[float, float, float, float]:
     """What postures violate, as multiples of what is allowed; 1 is the limit.
 
     Args:
         miss: distance by which a sole misses its pose, m.
-        stray: of a joint above the legs from its posture, rad.
+        posture_error: of a joint above the legs from its posture, rad.
         gap: between a limb and a step, m.
         self_distance: between two bodies of the robot, m.
         choice: what is allowed.
@@ -141,7 +117,7 @@ def kinematic_excess(
     """
     return (
         miss / choice.reach_tolerance,
-        stray / choice.posture_tolerance,
+        posture_error / choice.posture_tolerance,
         1.0 + (choice.limb_clearance - gap) / GAP_SCALE,
         1.0 + (choice.self_clearance - self_distance) / GAP_SCALE,
     )
@@ -162,11 +138,14 @@ def violation(
         and nothing where all is allowed.
     """
     found: list[tuple[float, str]] = []
-    miss, stray = float(prediction.foot_error.max()), float(prediction.stray.max())
+    miss, posture_error = (
+        float(prediction.foot_error.max()),
+        float(prediction.posture_error.max()),
+    )
     gap, limb, close = prediction.worst_gap()
     nearest, met = prediction.worst_self_distance()
     of_reach, of_posture, of_clearance, of_itself = kinematic_excess(
-        miss, stray, gap, nearest.distance, choice
+        miss, posture_error, gap, nearest.distance, choice
     )
     if of_reach > 1.0:
         when = prediction.time[int(prediction.foot_error.argmax())]
@@ -178,12 +157,13 @@ def violation(
             )
         )
     if of_posture > 1.0:
-        when = prediction.time[int(prediction.stray.argmax())]
+        when = prediction.time[int(prediction.posture_error.argmax())]
         found.append(
             (
                 of_posture,
-                f"reach: the upper body would have to stray {stray:.2f} rad from its "
-                f"posture at {when:.1f} s, more than {choice.posture_tolerance:g} rad",
+                f"reach: the upper body would have to stray {posture_error:.2f} rad "
+                f"from its posture at {when:.1f} s, more than "
+                f"{choice.posture_tolerance:g} rad",
             )
         )
     if of_clearance > 1.0:
@@ -218,27 +198,15 @@ def violation(
     return max(found, default=(0.0, ""))
 
 
-def _dynamic(
-    task: MotionTask,
-    params: MotionPlannerParams,
-    preview: ZmpPreviewParams,
-    robot: RobotModel,
-    body: WholeBody | None,
-) -> Iterator[MotionPlan]:
-    for lean, toe_off in product(params.choice.leans, params.choice.toe_offs):
-        tried = dataclasses.replace(params, lean=lean, max_toe_off=toe_off)
-        yield plan_motion(
-            task.feet, task.com, task.footsteps, task.edges, tried, preview, robot, body
-        )
+def _dynamic(task: MotionTask, walker: Walker) -> Iterator[MotionPlan]:
+    choice = walker.params.choice
+    for lean, toe_off in product(choice.leans, choice.toe_offs):
+        tried = dataclasses.replace(walker.params, lean=lean, max_toe_off=toe_off)
+        yield plan_motion(task, dataclasses.replace(walker, params=tried))
 
 
-def _quasi_static(
-    task: MotionTask,
-    params: MotionPlannerParams,
-    preview: ZmpPreviewParams,
-    robot: RobotModel,
-) -> Iterator[MotionPlan]:
-    choice = params.choice
+def _quasi_static(task: MotionTask, walker: Walker) -> Iterator[MotionPlan]:
+    choice = walker.params.choice
     for toe_off, forward, height, lean in product(
         choice.quasi_static_toe_offs,
         choice.quasi_static_forwards,
@@ -246,28 +214,17 @@ def _quasi_static(
         choice.quasi_static_leans,
     ):
         climb = Climb(lean, toe_off, height, forward)
-        segments = plan_segments(
-            task.feet, task.com, task.footsteps, climb, params, robot
-        )
-        reason = unstable_segment(segments, params, robot)
+        segments = plan_segments(task, climb, walker)
+        reason = unstable_segment(segments, walker.params, walker.robot)
         if reason:
-            yield _standing(task, params, preview, robot, reason)
+            yield _standing(task, walker, reason)
             continue
-        yield play_segments(
-            segments, task.footsteps, task.edges, params, preview, robot
-        )
+        yield play_segments(segments, task, walker)
 
 
-def _standing(
-    task: MotionTask,
-    params: MotionPlannerParams,
-    preview: ZmpPreviewParams,
-    robot: RobotModel,
-    reason: str,
-) -> MotionPlan:
-    plan = plan_motion(
-        task.feet, task.com, (), np.zeros((0, 3)), params, preview, robot
-    )
+def _standing(task: MotionTask, walker: Walker, reason: str) -> MotionPlan:
+    alone = dataclasses.replace(walker, body=None)
+    plan = plan_motion(MotionTask(task.feet, task.com), alone)
     return dataclasses.replace(plan, reason=reason)
 
 

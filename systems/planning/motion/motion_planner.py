@@ -1,23 +1,18 @@
 """The motion planner as a System: footsteps in, motion plan out."""
 
+import dataclasses
+
 import numpy as np
 from pydrake.common.value import AbstractValue
 from pydrake.systems.framework import Context, LeafSystem
 
-from footfall.models.robots.robot import RobotModel
 from footfall.models.values.perceived import PlaneSegment, Staircase
 from footfall.models.values.planned import FootstepPlan
 from footfall.models.values.vector import Vector
-from footfall.systems.balance.zmp_preview import ZmpPreviewParams
 from footfall.systems.planning.motion.motion import plan_motion
-from footfall.systems.planning.motion.motion_choice import (
-    Mode,
-    MotionTask,
-    choose_motion,
-)
-from footfall.systems.planning.motion.motion_params import MotionPlannerParams
+from footfall.systems.planning.motion.motion_choice import choose_motion
 from footfall.systems.planning.motion.motion_prediction import MotionPredictor
-from footfall.systems.planning.whole_body.whole_body_plan import WholeBody
+from footfall.systems.planning.motion.motion_task import Mode, MotionTask, Walker
 from footfall.systems.ports import eval_abstract, eval_vector
 from footfall.systems.timing import timed
 
@@ -56,33 +51,25 @@ class MotionPlanner(LeafSystem):
 
     def __init__(
         self,
-        params: MotionPlannerParams,
-        preview: ZmpPreviewParams,
-        robot: RobotModel,
+        walker: Walker,
         mode: Mode = "dynamic",
         predictor: MotionPredictor | None = None,
-        body: WholeBody | None = None,
     ) -> None:
         """Declares the ports.
 
         Args:
-            params: timing and shape.
-            preview: weights of the ZMP tracking.
-            robot: its soles and legs.
+            walker: parameters and robot.
             mode: how the robot is to move.
             predictor: of this robot, by which lean and toe-off are chosen; without one
                 the first that are tried are taken.
-            body: the whole robot, whose ZMP the motions are to keep on its reference;
-                None to plan dynamic motions with a single mass.
 
         Raises:
             ValueError: a parameter is out of range.
         """
         super().__init__()
-        params.validate()
-        self._params, self._preview, self._robot = params, preview, robot
+        walker.params.validate()
+        self._walker, self._predictor = walker, predictor
         self._mode: Mode = mode
-        self._predictor, self._body = predictor, body
         self._footsteps = self.DeclareAbstractInputPort(
             "footstep_plan", AbstractValue.Make(FootstepPlan())
         )
@@ -91,16 +78,8 @@ class MotionPlanner(LeafSystem):
         )
         self._feet = self.DeclareVectorInputPort("foot_references", 24)
         self._com = self.DeclareVectorInputPort("com_reference", 9)
-        feet: Vector = np.zeros((2, 6))
-        model = plan_motion(
-            feet,
-            np.array([0.0, 0.0, 1.0]),
-            (),
-            np.zeros((0, 3)),
-            params,
-            preview,
-            robot,
-        )
+        nowhere = MotionTask(np.zeros((2, 6)), np.array([0.0, 0.0, 1.0]))
+        model = plan_motion(nowhere, dataclasses.replace(walker, body=None))
         self.DeclareAbstractOutputPort(
             "motion_plan",
             lambda: AbstractValue.Make(model),
@@ -120,13 +99,5 @@ class MotionPlanner(LeafSystem):
             footsteps=footsteps,
             edges=front_edges(staircase.treads),
         )
-        plan = choose_motion(
-            task,
-            self._mode,
-            self._params,
-            self._preview,
-            self._robot,
-            self._predictor,
-            self._body,
-        )
+        plan = choose_motion(task, self._mode, self._walker, self._predictor)
         output.set_value(plan)

@@ -59,7 +59,7 @@ class MotionPrediction:
     """Distance by which the worse sole misses its pose, (n,), m."""
     com_error: Vector
     """Horizontal distance by which the CoM misses its place, (n,), m."""
-    stray: Vector
+    posture_error: Vector
     """How far the joint above the legs that strays most is from its posture, (n,),
     rad: arms that are flung up make up for legs that are too short."""
     gaps: Vector
@@ -161,7 +161,7 @@ class MotionPredictor:
         yaw: float,
         tick: float = TICK,
         first: float = 0.0,
-        hopeless: Callable[[float, float, float, float], bool] | None = None,
+        refuses: Callable[[float, float, float, float], bool] | None = None,
     ) -> MotionPrediction:
         """Carries out a plan in thought.
 
@@ -173,8 +173,8 @@ class MotionPredictor:
             tick: between the postures that are looked at, s.
             first: when the prediction begins, s after the plan's start; the plan is
                 at rest then.
-            hopeless: told the foot error, the stray, the least gap and the least
-                distance of two bodies in each posture; where it says so, the
+            refuses: is told the foot error, the posture error, the least gap and the
+                least distance of two bodies in each posture; where it refuses them, the
                 prediction ends there.
 
         Returns:
@@ -196,7 +196,7 @@ class MotionPredictor:
         v: Vector = np.zeros(plant.num_velocities())
         torques = np.zeros((len(rows), len(self._joints)))
         foot_error, com_error = np.zeros(len(rows)), np.zeros(len(rows))
-        stray = np.zeros(len(rows))
+        posture_error = np.zeros(len(rows))
         gaps = np.full((len(rows), len(self._limbs)), np.inf)
         self_distances: list[SelfDistance] = []
         for k, row in enumerate(rows):
@@ -204,13 +204,13 @@ class MotionPredictor:
             plant.SetVelocities(context, v)
             before = v
             foot_error[k], com_error[k] = self._errors(context, plan, row)
-            stray[k] = np.abs(q - self._ik.posture)[self._upper].max()
+            posture_error[k] = np.abs(q - self._ik.posture)[self._upper].max()
             self_distances.append(self._meter.nearest(q, SELF_RANGE))
             if len(edges):
                 gaps[k] = self._gaps(context, edges, yaw)
-            if hopeless and hopeless(
+            if refuses and refuses(
                 foot_error[k],
-                stray[k],
+                posture_error[k],
                 float(gaps[k].min()),
                 self_distances[-1].distance,
             ):
@@ -227,7 +227,7 @@ class MotionPredictor:
             effort_limits=self._effort,
             foot_error=foot_error[:seen],
             com_error=com_error[:seen],
-            stray=stray[:seen],
+            posture_error=posture_error[:seen],
             gaps=gaps[:seen],
             limbs=tuple(body.name() for body in self._limbs),
             self_distances=tuple(self_distances),

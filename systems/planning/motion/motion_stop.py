@@ -3,14 +3,11 @@
 import numpy as np
 from pydrake.math import RigidTransform
 
-from footfall.models.robots.robot import RobotModel
 from footfall.models.values.feet import other_foot
 from footfall.models.values.planned import Footstep, MotionPlan
 from footfall.models.values.vector import Vector
-from footfall.systems.balance.zmp_preview import ZmpPreviewParams
 from footfall.systems.planning.motion.motion import plan_motion
-from footfall.systems.planning.motion.motion_params import MotionPlannerParams
-from footfall.systems.planning.whole_body.whole_body_plan import WholeBody
+from footfall.systems.planning.motion.motion_task import MotionTask, Walker
 
 COMMITTED = 1.6
 """What lies farther ahead than this moves the CoM by less than a millimetre now, s."""
@@ -20,12 +17,9 @@ def stop_early(
     plan: MotionPlan,
     time: float,
     stance_width: float,
-    params: MotionPlannerParams,
-    preview: ZmpPreviewParams,
-    robot: RobotModel,
-    body: WholeBody | None = None,
+    walker: Walker,
 ) -> MotionPlan | None:
-    """The plan with its footsteps cut off as soon as balance allows.
+    """Cuts off the footsteps of a plan as soon as balance allows.
 
     The steps that land within `COMMITTED` are kept, since the CoM already moves for
     them; one more puts the feet side by side. Planned anew from the same start, the
@@ -35,15 +29,12 @@ def stop_early(
         plan: on level ground; what is being carried out.
         time: when the shorter plan takes over, s.
         stance_width: between the ankles when the feet stand side by side, m.
-        params: timing and shape, as for the plan.
-        preview: as for the plan.
-        robot: its soles and legs.
-        body: as for the plan.
+        walker: parameters and robot, as for the plan.
 
     Returns:
         The shorter plan with the same start time; None where the plan ends as soon.
     """
-    horizon = time - plan.start_time + min(preview.preview_time, COMMITTED)
+    horizon = time - plan.start_time + min(walker.preview.preview_time, COMMITTED)
     lands = [phase.end for phase in plan.phases if phase.swing is not None]
     kept = sum(land < horizon for land in lands) + 1
     if kept + 1 >= len(lands):
@@ -54,15 +45,7 @@ def stop_early(
     beside = Footstep(
         other_foot(last.foot), last.X_WF.multiply(RigidTransform(p_FG)), last.plane
     )
-    nowhere: Vector = np.zeros((0, 3))
-    shorter = plan_motion(
-        plan.foot_poses[0],
-        plan.com[0],
-        (*plan.footsteps[:kept], beside),
-        nowhere,
-        params,
-        preview,
-        robot,
-        body,
-    )
+    footsteps = (*plan.footsteps[:kept], beside)
+    task = MotionTask(plan.foot_poses[0], plan.com[0], footsteps)
+    shorter = plan_motion(task, walker)
     return shorter.starting_at(plan.start_time)

@@ -20,6 +20,7 @@ from footfall.systems.balance.convex_polygon import signed_margin
 from footfall.systems.balance.sole_contacts import carrying_contact
 from footfall.systems.balance.stability_polygon import static_polygon
 from footfall.systems.planning.motion.motion_params import MotionPlannerParams
+from footfall.systems.planning.motion.motion_task import MotionTask, Walker
 from footfall.systems.planning.motion.toe_off import heading, lift_heel
 
 
@@ -124,27 +125,20 @@ class _Builder:
 
 
 def plan_segments(
-    feet: Vector,
-    com: Vector,
-    footsteps: tuple[Footstep, ...],
-    climb: Climb,
-    params: MotionPlannerParams,
-    robot: RobotModel,
+    task: MotionTask, climb: Climb, walker: Walker
 ) -> tuple[Segment, ...]:
-    """The segments of a walk, from standing to standing.
+    """Plans the segments of a quasi-static walk, from standing to standing.
 
     Args:
-        feet: poses of both feet at the start, (2, 6), left first, level.
-        com: p_WCom at the start, (3,), at rest.
-        footsteps: where the feet go, in order.
+        task: start and footsteps.
         climb: what is chosen for climbing steps.
-        params: speeds and shape.
-        robot: its soles.
+        walker: parameters and robot.
 
     Returns:
         The segments; none without footsteps.
     """
-    builder = _Builder(feet, com, params, robot)
+    footsteps, params, robot = task.footsteps, walker.params, walker.robot
+    builder = _Builder(task.feet, task.com, params, robot)
     for k, footstep in enumerate(footsteps):
         i = FEET.index(footstep.foot)
         stance = other_foot(footstep.foot)

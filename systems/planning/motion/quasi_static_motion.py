@@ -4,12 +4,13 @@ import numpy as np
 
 from footfall.models.robots.robot import RobotModel
 from footfall.models.values.feet import FEET, Foot
-from footfall.models.values.planned import ContactPhase, Footstep, MotionPlan
+from footfall.models.values.planned import ContactPhase, MotionPlan
 from footfall.models.values.vector import Vector
-from footfall.systems.balance.zmp_preview import GRAVITY, ZmpPreviewParams
+from footfall.systems.balance.zmp_preview import GRAVITY
 from footfall.systems.planning.footsteps.footstep_planner import pose_from_xyz_rpy
 from footfall.systems.planning.motion.motion import LEVEL
 from footfall.systems.planning.motion.motion_params import MotionPlannerParams
+from footfall.systems.planning.motion.motion_task import MotionTask, Walker
 from footfall.systems.planning.motion.quasi_static import Segment
 from footfall.systems.planning.motion.swing_trajectory import quintic, swing_trajectory
 from footfall.systems.planning.motion.thigh_clearance import (
@@ -21,26 +22,19 @@ from footfall.systems.planning.motion.toe_off import lift_heel
 
 
 def play_segments(
-    segments: tuple[Segment, ...],
-    footsteps: tuple[Footstep, ...],
-    edges: Vector,
-    params: MotionPlannerParams,
-    preview: ZmpPreviewParams,
-    robot: RobotModel,
+    segments: tuple[Segment, ...], task: MotionTask, walker: Walker
 ) -> MotionPlan:
     """Samples segments: straight CoM lines, at rest at both ends.
 
     Args:
         segments: at least one, each beginning where the last one ended.
-        footsteps: what they carry out.
-        edges: a point of the front edge of each tread, (m, 3), m.
-        params: period and shape.
-        preview: of the cart whose ZMP the preview controller tracks.
-        robot: its soles.
+        task: whose footsteps they carry out, and the edges.
+        walker: parameters, those of the cart among them, and robot.
 
     Returns:
         The plan; its ZMP reference is the CoM's projection.
     """
+    params, robot = walker.params, walker.robot
     period = params.period
     counts = [round(segment.duration / period) for segment in segments]
     pause = round(params.quasi_static.rest / period)
@@ -60,7 +54,7 @@ def play_segments(
         waist[rows, 1] = segment.lean[0] + u[:, 0] * np.diff(segment.lean)
         lengths[rows] = segment.lengths
         contacts[rows] = 1.0
-        poses[rows] = _feet(segment, u[:, 0], count, edges, params, robot)
+        poses[rows] = _feet(segment, u[:, 0], count, task.edges, params, robot)
         if segment.swing is not None:
             contacts[row : row + count, FEET.index(segment.swing)] = 0.0
             land = (row + count) * period
@@ -79,7 +73,7 @@ def play_segments(
     return MotionPlan(
         start_time=0.0,
         period=period,
-        footsteps=footsteps,
+        footsteps=task.footsteps,
         phases=tuple(phases),
         contacts=contacts,
         foot_poses=poses,
@@ -88,7 +82,7 @@ def play_segments(
         com_velocity=velocity,
         com_acceleration=acceleration,
         zmp=zmp,
-        cart_zmp=com[:, :2] - preview.com_height / GRAVITY * acceleration[:, :2],
+        cart_zmp=com[:, :2] - walker.preview.com_height / GRAVITY * acceleration[:, :2],
         waist=waist,
     )
 

@@ -14,9 +14,10 @@ import numpy as np
 from pydrake.math import RigidTransform, RollPitchYaw
 
 from footfall.models.robots.robot import Sole
+from footfall.models.values.geometry import heading
 from footfall.models.values.validation import RIGHT_ANGLE, Parameters, number
 from footfall.models.values.vector import Vector
-from footfall.systems.planning.footsteps.foothold import heading, sole_corners, wrap
+from footfall.systems.planning.footsteps.foothold import sole_corners, wrap
 
 LIFTED = (0.3, 0.4, 0.5, 0.6, 0.7)
 """When the foot is at its highest, as a part of the duration."""

@@ -14,13 +14,13 @@ from pydrake.math import RigidTransform, RollPitchYaw
 
 from footfall.models.robots.robot import Sole
 from footfall.models.values.feet import FEET, Foot, other_foot
+from footfall.models.values.geometry import heading
 from footfall.models.values.planned import Footstep, FootstepPlan
 from footfall.models.values.room import Environment, PathPlan
 from footfall.models.values.vector import Vector
 from footfall.systems.planning.footsteps.foothold import (
     SIDE,
     Refusal,
-    heading,
     min_width,
     sole_outline,
     wrap,

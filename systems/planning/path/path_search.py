@@ -16,7 +16,7 @@ from footfall.systems.planning.path.path_shortening import (
     shorten_path,
     skip_corners,
 )
-from footfall.systems.planning.path.rrt_connect import Growth, rrt_connect
+from footfall.systems.planning.path.rrt_connect import GrownTrees, rrt_connect
 
 INWARD = 1e-3
 """How far inside the free space an escape from the margin ends, m."""
@@ -105,9 +105,9 @@ def _refuse(
 
 def _shortest(
     region: shapely.Polygon, start: Vector, goal: Vector, params: PathPlannerParams
-) -> tuple[Vector, Growth] | None:
+) -> tuple[Vector, GrownTrees] | None:
     """The shortest path of several searches, shortened, with its trees."""
-    best: tuple[Vector, Growth] | None = None
+    best: tuple[Vector, GrownTrees] | None = None
     straight = float(np.linalg.norm(goal - start))
 
     def is_free(segment: Vector) -> bool:

@@ -11,7 +11,7 @@ from footfall.models.values.vector import Vector
 
 
 @dataclass(frozen=True, eq=False)
-class Growth:
+class GrownTrees:
     """What one search came to."""
 
     path: Vector | None
@@ -42,7 +42,7 @@ def rrt_connect(
     extension: float,
     time_limit: float,
     seed: int,
-) -> Growth:
+) -> GrownTrees:
     """Grows a tree from either end until they meet.
 
     OMPL's generator is one for the whole process and is seeded here, so that the same
@@ -72,7 +72,7 @@ def _grow(
     goal: Vector,
     extension: float,
     time_limit: float,
-) -> Growth:
+) -> GrownTrees:
     space = base.RealVectorStateSpace(2)
     bounds = base.RealVectorBounds(2)
     low, high = region.bounds[:2], region.bounds[2:]
@@ -104,7 +104,7 @@ def _grow(
         path = np.array([[state[0], state[1]] for state in states])
     data = base.PlannerData(info)
     planner.getPlannerData(data)
-    return Growth(path, *_trees(data, start, goal))
+    return GrownTrees(path, *_trees(data, start, goal))
 
 
 def _trees(data: Any, start: Vector, goal: Vector) -> tuple[Vector, Vector]:

@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from pydrake.math import VectorToSkewSymmetric
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import BodyIndex
 
@@ -224,10 +225,8 @@ def momentum(tree: LinkTree, q: Vector, v: Vector) -> MomentumTrajectory:
 
 def _about(axis: Vector) -> Vector:
     """Rodrigues' rotation about an axis as the `turn` of a link."""
-    x, y, z = axis
     along = np.outer(axis, axis)
-    skew = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.array([along, np.eye(3) - along, skew])
+    return np.array([along, np.eye(3) - along, VectorToSkewSymmetric(axis)])
 
 
 def _turned(turn: Vector, cosine: Vector, sine: Vector, vectors: Vector) -> Vector:

@@ -156,7 +156,9 @@ def waist_above_com(body: WholeBody) -> float:
 
 
 def body_zmp(body: WholeBody, q: Vector, zmp_height: Vector, period: float) -> Vector:
-    """p_MB: the ZMP of a motion of the whole robot (Eq. 20), (n, 2), m.
+    """Computes p_MB, the ZMP of a motion of the whole robot (Eq. 20), (n, 2), m.
+
+    p_x = (m g c_x + p_z P'_x - L'_y) / (m g + P'_z), p_y likewise with + L'_x.
 
     Args:
         body: the robot.

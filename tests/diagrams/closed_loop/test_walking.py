@@ -22,6 +22,7 @@ from footfall.systems.balance.zmp_preview import (
 )
 from footfall.systems.planning.motion.motion import plan_motion
 from footfall.systems.planning.motion.motion_player import zmp_preview
+from footfall.systems.planning.motion.motion_task import MotionTask, Walker
 from footfall.systems.ports import eval_vector
 
 OVERRIDES = ("robot.x=-0.5", "robot.y=0.4", "robot.yaw=0.5", "scene.staircase.x=1.0")
@@ -163,9 +164,8 @@ def test_a_plan_comes_into_view_of_the_preview_without_a_jump(rise: float) -> No
         for foot, y in (("right", -0.095), ("left", 0.095))
     )
     edges = np.array([[0.2, 0.0, rise], [0.47, 0.0, 2.0 * rise]])
-    plan = plan_motion(
-        feet, com, footsteps, edges, params.motion_planner, params.zmp_preview, JVRC1
-    )
+    walker = Walker(params.motion_planner, params.zmp_preview, JVRC1)
+    plan = plan_motion(MotionTask(feet, com, footsteps, edges), walker)
     gains = preview_gains(params.zmp_preview)
     state, error = rest_state(com[:2]), rest_error_sum(gains, com[:2])
     rows = round(params.motion_planner.lead_in / params.control_period)

@@ -15,8 +15,8 @@ from footfall.models.robots.self_distance import SelfDistanceMeter
 from footfall.models.values.planned import Footstep
 from footfall.models.values.vector import Vector
 from footfall.systems.balance.wrench_distribution import DistributionParams
-from footfall.systems.planning.motion.motion_choice import MotionTask
 from footfall.systems.planning.motion.motion_prediction import MotionPredictor
+from footfall.systems.planning.motion.motion_task import MotionTask
 from footfall.systems.tracking.whole_body_ik import IkParams, WholeBodyIk
 
 

@@ -16,11 +16,12 @@ from footfall.systems.balance.zmp_preview import ZmpPreviewParams
 from footfall.systems.planning.crossing.feasibility_unit import feasibility_unit
 from footfall.systems.planning.crossing.leg_clearance import Section
 from footfall.systems.planning.crossing.motion import plan_crossing
-from footfall.systems.planning.crossing.params import CrossingParams, Mode
+from footfall.systems.planning.crossing.params import CrossingParams
 from footfall.systems.planning.crossing.quasi_static_check import balance_of
 from footfall.systems.planning.crossing.quasi_static_unit import quasi_static_unit
 from footfall.systems.planning.crossing.report import CrossingMotion
 from footfall.systems.planning.motion.motion_params import MotionPlannerParams
+from footfall.systems.planning.motion.motion_task import Mode
 from footfall.systems.planning.whole_body.whole_body_plan import (
     WholeBody,
     planning_body,

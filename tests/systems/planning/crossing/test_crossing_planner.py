@@ -15,7 +15,6 @@ from footfall.systems.planning.crossing.crossing_planner import CrossingPlanner
 from footfall.systems.planning.crossing.params import (
     CrossingParams,
     HighCrossingParams,
-    Mode,
 )
 from footfall.systems.planning.crossing.quasi_static_unit import (
     QuasiStaticCrossingParams,
@@ -24,13 +23,14 @@ from footfall.systems.planning.crossing.report import CrossingMotion
 from footfall.systems.planning.footsteps.footstep_params import FootstepPlannerParams
 from footfall.systems.planning.motion.motion import plan_motion
 from footfall.systems.planning.motion.motion_params import MotionPlannerParams
+from footfall.systems.planning.motion.motion_task import Mode, MotionTask, Walker
 from tests.systems.planning.crossing.crossing_cases import body
 
 WALKING = MotionPlannerParams(com_height=0.83)
 PREVIEW = ZmpPreviewParams(com_height=0.85)
 FEET: Vector = np.array([[0.0, 0.095, 0.0, 0.0, 0.0, 0.0], [0.0, -0.095, 0, 0, 0, 0]])
 COM: Vector = np.array([0.035, 0.0, 0.83])
-STANDING = plan_motion(FEET, COM, (), np.zeros((0, 3)), WALKING, PREVIEW, body().robot)
+STANDING = plan_motion(MotionTask(FEET, COM), Walker(WALKING, PREVIEW, body().robot))
 OUTLINE: Vector = np.array([[-0.2, -2.0], [3.0, -2.0], [3.0, 2.0], [-0.2, 2.0]])
 """Of the floor that was seen."""
 NEAR = Obstacle(np.array([0.7, 0.0]), 0.0, 0.05, 0.15, 1.2)

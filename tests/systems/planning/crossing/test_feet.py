@@ -19,13 +19,14 @@ from footfall.systems.planning.crossing.feet_adaptor import (
     Repairs,
     ankle_displacement,
 )
-from footfall.systems.planning.crossing.params import CrossingParams, Mode
+from footfall.systems.planning.crossing.params import CrossingParams
 from footfall.systems.planning.crossing.timing import (
     CrossingStep,
     time_steps,
     zmp_reference,
 )
 from footfall.systems.planning.motion.motion_params import MotionPlannerParams
+from footfall.systems.planning.motion.motion_task import Mode
 from footfall.systems.planning.motion.step_timing import stance_zmp
 from tests.systems.planning.crossing.crossing_cases import body, footstep
 

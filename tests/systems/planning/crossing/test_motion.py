@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from footfall.models.values.feet import FEET
-from footfall.systems.planning.crossing import course as crossing_course
+from footfall.systems.planning.crossing import crossing_problem
 from footfall.systems.planning.crossing.feasibility_unit import FeasibilityParams
 from footfall.systems.planning.crossing.feet_adaptor import ankle_displacement
 from footfall.systems.planning.crossing.foot_trajectory_generator import (
@@ -214,7 +214,7 @@ def test_the_third_repair_acts_where_the_others_do_not(
     assert path.size
     assert path.min() < -0.005
     assert path.max() <= 0.0
-    monkeypatch.setattr(crossing_course, "yielding_path", lambda *_: None)
+    monkeypatch.setattr(crossing_problem, "yielding_path", lambda *_: None)
     stiff, _ = planned(0.024, 0.291, level)
     assert not stiff.report.repairs.path.size
     assert yielding.report.repairs.shift == stiff.report.repairs.shift

@@ -7,10 +7,11 @@ from pydrake.math import RigidTransform, RollPitchYaw
 
 from footfall.models.robots.robot import Sole
 from footfall.models.values.feet import other_foot
+from footfall.models.values.geometry import heading
 from footfall.models.values.perceived import PlaneSegment, Staircase
 from footfall.models.values.planned import FootstepPlan
 from footfall.models.values.vector import Vector
-from footfall.systems.planning.footsteps.foothold import heading, sole_corners
+from footfall.systems.planning.footsteps.foothold import sole_corners
 from footfall.systems.planning.footsteps.footstep_params import FootstepPlannerParams
 
 PARAMS = FootstepPlannerParams(foothold_bias=0.0)

@@ -7,8 +7,9 @@ import pytest
 
 from footfall.models.robots.robot import Sole
 from footfall.models.values.feet import FEET, Foot
+from footfall.models.values.geometry import rotate
 from footfall.systems.planning.footsteps.approach import FloorStep, plan_approach
-from footfall.systems.planning.footsteps.foothold import SIDE, Refusal, rotate
+from footfall.systems.planning.footsteps.foothold import SIDE, Refusal
 from footfall.systems.planning.footsteps.footstep_params import FootstepPlannerParams
 
 SOLE = Sole(heel=0.075, toe=0.150, half_width=0.042, ankle_height=0.1077)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from pydrake.math import RigidTransform, RollPitchYaw
 
-from footfall.systems.planning.footsteps.foothold import heading
+from footfall.models.values.geometry import heading
 from footfall.systems.planning.footsteps.footstep_params import FootstepPlannerParams
 from footfall.systems.planning.footsteps.footstep_planner import plan_footsteps
 from tests.systems.planning.footsteps.staircase_cases import (

@@ -7,6 +7,7 @@ import pytest
 from pydrake.math import RigidTransform, RollPitchYaw
 
 from footfall.models.robots.robot import Sole
+from footfall.models.values.geometry import rotate
 from footfall.models.values.perceived import PlaneSegment
 from footfall.models.values.vector import Vector
 from footfall.systems.planning.footsteps.foothold import (
@@ -16,7 +17,6 @@ from footfall.systems.planning.footsteps.foothold import (
     lateral_interval,
     min_width,
     plane_height,
-    rotate,
     sole_outline,
 )
 from footfall.systems.planning.footsteps.footstep_params import FootstepPlannerParams

@@ -15,6 +15,7 @@ from footfall.models.values.vector import Vector
 from footfall.systems.balance.zmp_preview import ZmpPreviewParams
 from footfall.systems.planning.motion.motion import plan_motion, schedule
 from footfall.systems.planning.motion.motion_params import MotionPlannerParams
+from footfall.systems.planning.motion.motion_task import MotionTask, Walker
 from footfall.systems.planning.motion.step_timing import middle_zmp, stance_zmp
 
 PARAMS = MotionPlannerParams()
@@ -41,13 +42,15 @@ CLIMB = (
 )
 WALK = (footstep("right", 0.55, 0.0), footstep("left", 0.55, 0.0))
 
+WALKER = Walker(PARAMS, PREVIEW, JVRC1)
+
 
 @cache
 def plan(name: str) -> MotionPlan:
     """From the start stance."""
     footsteps = {"climb": CLIMB, "walk": WALK, "stand": ()}[name]
     edges = EDGES if name == "climb" else NOTHING
-    return plan_motion(START, COM, footsteps, edges, PARAMS, PREVIEW, JVRC1)
+    return plan_motion(MotionTask(START, COM, footsteps, edges), WALKER)
 
 
 @pytest.fixture(params=["climb", "walk", "stand"])
@@ -255,7 +258,7 @@ def test_turning_the_world_turns_the_plan() -> None:
         dataclasses.replace(step, X_WF=X.multiply(step.X_WF)) for step in CLIMB
     )
     edges = np.array([X.multiply(edge) for edge in EDGES])
-    there = plan_motion(start, X.multiply(COM), steps, edges, PARAMS, PREVIEW, JVRC1)
+    there = plan_motion(MotionTask(start, X.multiply(COM), steps, edges), WALKER)
     here = plan("climb")
     np.testing.assert_allclose(there.com, [X.multiply(p) for p in here.com], atol=1e-6)
     np.testing.assert_allclose(there.zmp, [X.multiply(p) for p in here.zmp], atol=1e-6)
@@ -314,6 +317,6 @@ def test_zmp_in_single_support_is_ahead_and_towards_the_other_foot(
 
 def test_a_plan_that_ends_astride_keeps_to_the_lower_foot() -> None:
     """So that the rear leg still reaches the ground."""
-    motion = plan_motion(START, COM, CLIMB[:1], EDGES, PARAMS, PREVIEW, JVRC1)
+    motion = plan_motion(MotionTask(START, COM, CLIMB[:1], EDGES), WALKER)
     assert motion.foot_poses[-1, :, 2].tolist() == [0.0, 0.2]
     assert motion.com[-1, 2] == pytest.approx(PARAMS.com_height)

@@ -18,6 +18,7 @@ from footfall.systems.planning.motion.motion_choice import (
 )
 from footfall.systems.planning.motion.motion_params import MotionPlannerParams
 from footfall.systems.planning.motion.motion_prediction import MotionPrediction
+from footfall.systems.planning.motion.motion_task import Walker
 
 PREVIEW = ZmpPreviewParams(com_height=0.85)
 
@@ -27,7 +28,7 @@ def chosen(
 ) -> MotionPlan:
     """The plan that is chosen."""
     params = MotionPlannerParams(choice=choice or ChoiceParams())
-    return choose_motion(task, mode, params, PREVIEW, JVRC1, jvrc1.predictor)
+    return choose_motion(task, mode, Walker(params, PREVIEW, JVRC1), jvrc1.predictor)
 
 
 @pytest.mark.parametrize("mode", ["dynamic", "quasi_static"])
@@ -98,7 +99,9 @@ def test_a_polygon_without_room_is_refused(step_24cm) -> None:
     """Without prediction too."""
     params = MotionPlannerParams()
     params.quasi_static.margin = 0.06
-    plan = choose_motion(step_24cm, "quasi_static", params, PREVIEW, JVRC1, None)
+    plan = choose_motion(
+        step_24cm, "quasi_static", Walker(params, PREVIEW, JVRC1), None
+    )
     assert "static-stability polygon, less than 0.060 m" in plan.reason
 
 
@@ -119,7 +122,7 @@ def prediction(**changes: object) -> MotionPrediction:
         "effort_limits": np.array([100.0, 50.0]),
         "foot_error": np.zeros(100),
         "com_error": np.zeros(100),
-        "stray": np.zeros(100),
+        "posture_error": np.zeros(100),
         "gaps": np.full((100, 1), 0.1),
         "limbs": ("SHIN",),
         "self_distances": (SelfDistance(0.02, ("", "")),) * 100,
@@ -152,8 +155,10 @@ def test_each_quantity_has_its_reason() -> None:
         "clearance: PELVIS and THIGH would come within -0.004 m of each other at "
         "1.2 s, less than 0.002 m"
     )
-    stray = violation(prediction(stray=late * 20.0), 0.3, choice)[1]
-    assert stray.startswith("reach: the upper body would have to stray 1.00 rad")
+    posture_error = violation(prediction(posture_error=late * 20.0), 0.3, choice)[1]
+    assert posture_error.startswith(
+        "reach: the upper body would have to stray 1.00 rad"
+    )
 
 
 @pytest.mark.parametrize(

@@ -13,6 +13,7 @@ from footfall.systems.balance.zmp_preview import ZmpPreviewParams
 from footfall.systems.planning.motion.motion import plan_motion
 from footfall.systems.planning.motion.motion_params import MotionPlannerParams
 from footfall.systems.planning.motion.motion_stop import stop_early
+from footfall.systems.planning.motion.motion_task import MotionTask, Walker
 from footfall.systems.planning.whole_body.whole_body_plan import (
     body_motion,
     body_zmp,
@@ -35,16 +36,8 @@ def walk(whole: bool) -> MotionPlan:
         foot, y = (("right", -0.095), ("left", 0.095))[i % 2]
         x = 0.3 * min(i + 1, 8)
         steps.append(Footstep(foot, RigidTransform([x, y, 0.0]), -1))
-    return plan_motion(
-        FEET,
-        COM,
-        tuple(steps),
-        np.zeros((0, 3)),
-        PARAMS,
-        PREVIEW,
-        JVRC1,
-        body() if whole else None,
-    )
+    walker = Walker(PARAMS, PREVIEW, JVRC1, body() if whole else None)
+    return plan_motion(MotionTask(FEET, COM, tuple(steps)), walker)
 
 
 def zmp_error(plan: MotionPlan) -> Vector:
@@ -87,7 +80,7 @@ def test_nothing_but_the_com_moves_otherwise() -> None:
 def test_a_walk_that_is_cut_short_goes_on_without_a_jump(time: float) -> None:
     """The shorter plan, too, is that of the whole body."""
     plan = walk(True)
-    shorter = stop_early(plan, time, 0.19, PARAMS, PREVIEW, JVRC1, body())
+    shorter = stop_early(plan, time, 0.19, Walker(PARAMS, PREVIEW, JVRC1, body()))
     assert shorter is not None
     now = round(time / plan.period) + 1
     np.testing.assert_allclose(shorter.com[:now], plan.com[:now], atol=1.5e-3)

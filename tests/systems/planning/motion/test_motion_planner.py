@@ -13,6 +13,7 @@ from footfall.systems.balance.zmp_preview import ZmpPreviewParams
 from footfall.systems.planning.motion.motion import plan_motion
 from footfall.systems.planning.motion.motion_params import MotionPlannerParams
 from footfall.systems.planning.motion.motion_planner import MotionPlanner, front_edges
+from footfall.systems.planning.motion.motion_task import MotionTask, Walker
 
 START = np.array([[0.39, 0.095, 0, 0, 0, 0], [0.39, -0.095, 0, 0, 0, 0]])
 COM = np.array([0.425, 0.0, 0.85])
@@ -38,7 +39,7 @@ def tread(x: float, z: float, yaw: float = 0.0) -> PlaneSegment:
 
 def make(footsteps: tuple[Footstep, ...]) -> tuple[MotionPlanner, Context]:
     """The system at the start stance, before one tread."""
-    system = MotionPlanner(MotionPlannerParams(), PREVIEW, JVRC1)
+    system = MotionPlanner(Walker(MotionPlannerParams(), PREVIEW, JVRC1))
     context = system.CreateDefaultContext()
     plan = FootstepPlan(footsteps, "planned" if footsteps else "finished")
     for name, value in (
@@ -69,15 +70,13 @@ def test_front_edges_are_where_the_treads_begin() -> None:
 
 def test_plans_from_the_references_over_the_edges() -> None:
     """As the core does, on poses and positions alone."""
-    params = MotionPlannerParams()
+    walker = Walker(MotionPlannerParams(), PREVIEW, JVRC1)
     edges = np.array([[0.6, 0.0, 0.2]])
-    want = plan_motion(START, COM, STEPS, edges, params, PREVIEW, JVRC1)
+    want = plan_motion(MotionTask(START, COM, STEPS, edges), walker)
     found = plan_of(*make(STEPS))
     assert found == want
     assert found.start_time == 0.0
-    assert found != plan_motion(
-        START, COM, STEPS, np.zeros((0, 3)), params, PREVIEW, JVRC1
-    )
+    assert found != plan_motion(MotionTask(START, COM, STEPS), walker)
 
 
 def test_without_footsteps_it_stands() -> None:
@@ -106,4 +105,4 @@ def test_a_new_input_is_a_new_plan() -> None:
 def test_a_wrong_parameter_is_refused() -> None:
     """When the system is made."""
     with pytest.raises(ValueError, match=r"^lead_in: must be at least 0"):
-        MotionPlanner(MotionPlannerParams(lead_in=0.0), PREVIEW, JVRC1)
+        MotionPlanner(Walker(MotionPlannerParams(lead_in=0.0), PREVIEW, JVRC1))

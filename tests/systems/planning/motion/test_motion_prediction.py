@@ -9,6 +9,7 @@ from footfall.systems.balance.zmp_preview import ZmpPreviewParams
 from footfall.systems.planning.motion.motion import plan_motion
 from footfall.systems.planning.motion.motion_params import MotionPlannerParams
 from footfall.systems.planning.motion.motion_prediction import SELF_RANGE, edge_gaps
+from footfall.systems.planning.motion.motion_task import MotionTask, Walker
 
 AHEAD = np.array([1.0, 0.0])
 BOX = np.array([[x, 0.0, z] for x in (-0.1, 0.1) for z in (-0.1, 0.1)])
@@ -19,9 +20,8 @@ def standing(com_x: float = 0.035) -> MotionPlan:
     feet = np.zeros((2, 6))
     feet[:, 1] = (0.095, -0.095)
     com = np.array([com_x, 0.0, 0.85])
-    nowhere = np.zeros((0, 3))
-    params = MotionPlannerParams()
-    return plan_motion(feet, com, (), nowhere, params, ZmpPreviewParams(), JVRC1)
+    walker = Walker(MotionPlannerParams(), ZmpPreviewParams(), JVRC1)
+    return plan_motion(MotionTask(feet, com), walker)
 
 
 @pytest.mark.parametrize(
@@ -66,7 +66,7 @@ def test_standing_is_within_reach_and_symmetric(jvrc1) -> None:
         assert torque[f"L_{joint}"] == pytest.approx(torque[f"R_{joint}"], abs=0.5)
     assert found.foot_error.max() < 1e-3
     assert found.com_error.max() < 1e-3
-    assert found.stray.max() < 0.05
+    assert found.posture_error.max() < 0.05
     assert np.isinf(found.gaps).all()
     assert found.worst_torque()[0] < 0.5
 
@@ -93,15 +93,11 @@ def test_a_climb_is_held_against_the_robot_itself(jvrc1, step_24cm) -> None:
     """Its thigh comes near the pelvis, and meets it where the foot swings straight."""
 
     def nearest(**shape: float) -> tuple[float, tuple[str, str]]:
-        plan = plan_motion(
-            step_24cm.feet,
-            step_24cm.com,
-            step_24cm.footsteps,
-            step_24cm.edges,
+        params, preview = (
             MotionPlannerParams(**shape),
             ZmpPreviewParams(com_height=0.85),
-            JVRC1,
         )
+        plan = plan_motion(step_24cm, Walker(params, preview, JVRC1))
         found = jvrc1.predictor.predict(plan, step_24cm.edges, 0.0)
         worst, when = found.worst_self_distance()
         assert worst == found.self_distances[int(np.searchsorted(found.time, when))]

@@ -12,6 +12,7 @@ from footfall.systems.balance.zmp_preview import ZmpPreviewParams
 from footfall.systems.planning.motion.motion import plan_motion
 from footfall.systems.planning.motion.motion_params import MotionPlannerParams
 from footfall.systems.planning.motion.motion_stop import COMMITTED, stop_early
+from footfall.systems.planning.motion.motion_task import MotionTask, Walker
 
 PARAMS = MotionPlannerParams()
 PREVIEW = ZmpPreviewParams(com_height=0.85, preview_time=2.4)
@@ -19,6 +20,7 @@ WIDTH = 0.19
 START = np.array([[0.0, WIDTH / 2, 0, 0, 0, 0], [0.0, -WIDTH / 2, 0, 0, 0, 0]])
 COM = np.array([0.035, 0.0, 0.85])
 BEGIN = 7.0
+WALKER = Walker(PARAMS, PREVIEW, JVRC1)
 
 
 @cache
@@ -29,15 +31,13 @@ def walk() -> MotionPlan:
         foot, y = (("right", -WIDTH / 2), ("left", WIDTH / 2))[i % 2]
         x = 0.25 * min(i + 1, 9)
         steps.append(Footstep(foot, RigidTransform([x, y, 0.0]), -1))
-    plan = plan_motion(
-        START, COM, tuple(steps), np.zeros((0, 3)), PARAMS, PREVIEW, JVRC1
-    )
+    plan = plan_motion(MotionTask(START, COM, tuple(steps)), WALKER)
     return plan.starting_at(BEGIN)
 
 
 def stopped(time: float) -> MotionPlan | None:
     """The walk cut short at a time since its beginning."""
-    return stop_early(walk(), BEGIN + time, WIDTH, PARAMS, PREVIEW, JVRC1)
+    return stop_early(walk(), BEGIN + time, WIDTH, WALKER)
 
 
 @pytest.mark.parametrize("time", [0.5, 1.5, 3.0, 5.0])

@@ -13,8 +13,8 @@ from footfall.systems.balance.convex_polygon import signed_margin
 from footfall.systems.balance.sole_contacts import carrying_contact
 from footfall.systems.balance.stability_polygon import static_polygon
 from footfall.systems.balance.zmp_preview import ZmpPreviewParams
-from footfall.systems.planning.motion.motion_choice import MotionTask
 from footfall.systems.planning.motion.motion_params import MotionPlannerParams
+from footfall.systems.planning.motion.motion_task import MotionTask, Walker
 from footfall.systems.planning.motion.quasi_static import (
     Climb,
     plan_segments,
@@ -29,13 +29,13 @@ CLIMB = Climb(lean=0.6, toe_off=0.8, lifted_height=0.7, forward=0.12)
 
 def segments_of(task: MotionTask, params: MotionPlannerParams = PARAMS) -> tuple:
     """The segments of one step."""
-    return plan_segments(task.feet, task.com, task.footsteps, CLIMB, params, JVRC1)
+    return plan_segments(task, CLIMB, Walker(params, ZmpPreviewParams(), JVRC1))
 
 
 def played(task: MotionTask) -> MotionPlan:
     """The motion of one step."""
     return play_segments(
-        segments_of(task), task.footsteps, task.edges, PARAMS, ZmpPreviewParams(), JVRC1
+        segments_of(task), task, Walker(PARAMS, ZmpPreviewParams(), JVRC1)
     )
 
 
@@ -47,7 +47,7 @@ def test_the_com_rests_over_the_lower_of_two_nearly_level_feet() -> None:
     for height, lower in ((uneven, 0.0), (-uneven, -uneven)):
         X_WF = RigidTransform(np.array([0.1, -0.095, height]))
         footstep = Footstep(foot="right", X_WF=X_WF, plane=-1)
-        segments = plan_segments(feet, com, (footstep,), CLIMB, PARAMS, JVRC1)
+        segments = segments_of(MotionTask(feet, com, (footstep,)))
         rest = [0.05 + PARAMS.zmp_forward, 0.0, lower + PARAMS.com_height]
         np.testing.assert_allclose(segments[-1].com[1], rest, atol=1e-12)
 

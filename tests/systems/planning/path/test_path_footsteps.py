@@ -11,9 +11,10 @@ from pydrake.math import RigidTransform, RollPitchYaw
 
 from footfall.models.robots.robot import Sole
 from footfall.models.values.feet import FEET
+from footfall.models.values.geometry import heading
 from footfall.models.values.planned import FootstepPlan
 from footfall.models.values.room import Environment, PathPlan
-from footfall.systems.planning.footsteps.foothold import SIDE, heading, wrap
+from footfall.systems.planning.footsteps.foothold import SIDE, wrap
 from footfall.systems.planning.footsteps.footstep_params import FootstepPlannerParams
 from footfall.systems.planning.path.path_footstep_planner import PathFootstepPlanner
 from footfall.systems.planning.path.path_footsteps import plan_path_footsteps

@@ -1,4 +1,7 @@
-"""A crossing between its steps in time and its motion: CWTG1, FTG, IK and FTA on it."""
+"""The problem of a crossing: from steps in time to CoM, waist and feet.
+
+CWTG1, FTG, IK and FTA of the obstacle paper, Sec. III, applied to one motion.
+"""
 
 import dataclasses
 from dataclasses import dataclass
@@ -26,10 +29,11 @@ from footfall.systems.planning.crossing.feet_adaptor import (
     leg_gaps,
 )
 from footfall.systems.planning.crossing.leg_clearance import Section
-from footfall.systems.planning.crossing.params import CrossingParams, Mode
+from footfall.systems.planning.crossing.params import CrossingParams
 from footfall.systems.planning.crossing.posture import waist_height
 from footfall.systems.planning.crossing.timing import CrossingStep
 from footfall.systems.planning.motion.motion_params import MotionPlannerParams
+from footfall.systems.planning.motion.motion_task import Mode
 from footfall.systems.planning.whole_body.whole_body_plan import (
     BodyMotion,
     WholeBody,
@@ -40,40 +44,65 @@ from footfall.systems.planning.whole_body.whole_body_plan import (
 Index: TypeAlias = np.ndarray[Any, np.dtype[np.intp]]
 
 
-@dataclass(frozen=True, eq=False)
-class Course:
-    """What is given of a motion before its CoM and its feet over the obstacle are."""
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Schedule:
+    """What is decided of a motion tick by tick before its CoM and its feet are."""
 
     time: Vector
+    """Of the n ticks, (n,), s."""
     steps: tuple[CrossingStep, ...]
-    feet: Vector
-    com: Vector
+    """The footsteps in time."""
     zmp: Vector
+    """Reference of the ZMP, (n, 3), m."""
     rpy: Vector
+    """Orientation of the waist, (n, 3), rad."""
     arms: Vector
-    start_waist: Vector
+    """How far each arm swings, (n, 2)."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CrossingStart:
+    """Where the robot stands before the first step."""
+
+    feet: Vector
+    """Sole poses, (2, 6)."""
+    com: Vector
+    """p_WCom, (3,), m."""
+    waist: Vector
+    """p_WWaist, (3,), m."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CrossingProblem:
+    """A motion to be found: CoM, waist and feet over the obstacles (CWTG, FTG, FTA)."""
+
+    schedule: Schedule
+    start: CrossingStart
     obstacles: tuple[Obstacle, ...]
     keys: tuple[KeyConfiguration, ...]
+    """The double support over each of them."""
     walking: MotionPlannerParams
     crossing: CrossingParams
     tracker: ComTracker
+    """CWTG1."""
     body: WholeBody
     context: Context
+    """Scratch context of its plant."""
     mode: Mode
 
     @property
     def ground(self) -> float:
-        """Height of the floor, m."""
-        return float(self.feet[:, 2].mean())
+        """Computes the height of the floor, m."""
+        return float(self.start.feet[:, 2].mean())
 
     @property
     def rows(self) -> Index:
-        """Ticks at which the whole body is looked at."""
-        return np.arange(0, len(self.time), self._stride)
+        """Lists the ticks at which the whole body is evaluated."""
+        return np.arange(0, len(self.schedule.time), self._stride)
 
     @property
     def tick(self) -> float:
-        """Between `rows`, s."""
+        """Computes the time between `rows`, s."""
         return self._stride * self.walking.period
 
     @property
@@ -81,28 +110,28 @@ class Course:
         return max(1, round(self.crossing.sampling / self.walking.period))
 
     def single_mass(self, repairs: Repairs) -> tuple[ComMotion, Vector, Vector]:
-        """CWTG1: the CoM of the single mass, the waist's height, the height factor."""
+        """Runs CWTG1: CoM of the single mass, height of the waist, height factor."""
         height = waist_height(
-            self.time,
-            self.steps,
+            self.schedule.time,
+            self.schedule.steps,
             self.keys,
-            self.start_waist[2],
+            self.start.waist[2],
             self.ground,
             repairs,
             self.crossing,
         )
         period = self.walking.period
-        com_height = height + (self.com[2] - self.start_waist[2])
+        com_height = height + (self.start.com[2] - self.start.waist[2])
         acceleration = np.gradient(np.gradient(com_height, period), period)
-        factor = height_factor(com_height, self.zmp[:, 2], acceleration)
-        return self.tracker(self.zmp[:, :2], factor), height, factor
+        factor = height_factor(com_height, self.schedule.zmp[:, 2], acceleration)
+        return self.tracker(self.schedule.zmp[:, :2], factor), height, factor
 
     def soles(self, repairs: Repairs, time: Vector) -> Vector:
-        """FTG: sole poses, (n, 2, 6)."""
+        """Runs FTG: sole poses, (n, 2, 6)."""
         return feet_along(
             time,
-            self.steps,
-            self.feet,
+            self.schedule.steps,
+            self.start.feet,
             self.obstacles,
             self.body.leg,
             self.crossing,
@@ -118,36 +147,38 @@ class Course:
         guess: Vector | None = None,
         soles: Vector | None = None,
     ) -> BodyMotion:
-        """IK and UBMG at some ticks."""
+        """Runs IK and UBMG at some ticks."""
         rounds = 1
         if guess is None:
-            guess = np.tile(self.start_waist[:2] - self.com[:2], (len(rows), 1))
+            guess = np.tile(self.start.waist[:2] - self.start.com[:2], (len(rows), 1))
             rounds = 2 if self.mode == "quasi_static" else 1
         return body_motion(
             self.body,
             moved.com[rows],
             height[rows],
-            self.rpy[rows],
-            self.soles(repairs, self.time[rows]) if soles is None else soles,
-            self.arms[rows],
+            self.schedule.rpy[rows],
+            self.soles(repairs, self.schedule.time[rows]) if soles is None else soles,
+            self.schedule.arms[rows],
             guess,
             rounds,
         )
 
     def multibody_zmp(self, motion: BodyMotion) -> Vector:
-        """p_MB at `rows`, (m, 2), m."""
-        ground = self.zmp[self.rows, 2]
+        """Computes p_MB (Eq. 20) at `rows`, (m, 2), m."""
+        ground = self.schedule.zmp[self.rows, 2]
         return body_zmp(self.body, motion.q, ground, self.tick)
 
     def at_every_tick(self, values: Vector) -> Vector:
-        """Values at `rows` spread over all ticks, (n, ...)."""
-        spread: Vector = CubicSpline(self.time[self.rows], values)(self.time)
+        """Interpolates values at `rows` to all ticks, (n, ...)."""
+        spread: Vector = CubicSpline(self.schedule.time[self.rows], values)(
+            self.schedule.time
+        )
         spread[self.rows[-1] :] = values[-1]
         return spread
 
     def repairs(self) -> Repairs:
-        """FTA: what has to change that the legs keep off the inflated obstacles."""
-        window: Mask = crossing_rows(self.time[self.rows], self.steps)
+        """Runs FTA: changes that keep the legs off the inflated obstacles."""
+        window: Mask = crossing_rows(self.schedule.time[self.rows], self.schedule.steps)
         looked = self.rows[window][::2]
         if not len(looked):
             return Repairs()
@@ -165,7 +196,7 @@ class Course:
             if heights not in masses:
                 masses[heights] = self.single_mass(repairs)
             moved, height, _ = masses[heights]
-            soles = self.soles(repairs, self.time[looked])
+            soles = self.soles(repairs, self.schedule.time[looked])
             motion = self.body_along(moved, height, repairs, looked, soles=soles)
             return LegPoses(motion.angles, soles)
 
@@ -183,7 +214,12 @@ class Course:
 
         def yielding(poses: LegPoses, repairs: Repairs) -> Repairs | None:
             path = yielding_path(
-                poses, gaps_of(poses), self.time[looked], self.steps, leg, repairs
+                poses,
+                gaps_of(poses),
+                self.schedule.time[looked],
+                self.schedule.steps,
+                leg,
+                repairs,
             )
             return None if path is None else dataclasses.replace(repairs, path=path)
 
@@ -195,6 +231,6 @@ class Course:
             gaps_of,
             yielding,
             (straight, folded),
-            self.ground + highest - self.start_waist[2],
+            self.ground + highest - self.start.waist[2],
             self.crossing.max_repairs,
         )

@@ -1,4 +1,4 @@
-"""How far towards its goal a robot may walk on what it has seen.
+"""Plans how far towards its goal a robot may walk on the floor that it has seen.
 
 Beyond the floor that was seen anything may stand in the way, and near its edge the top
 of what stands there was not seen. The robot walks to where it is sure, looks again and
@@ -12,10 +12,11 @@ import numpy as np
 import shapely  # type: ignore[import-untyped]
 
 from footfall.models.robots.robot import Sole
+from footfall.models.values.geometry import rotate
 from footfall.models.values.obstacle import Obstacle, ObstacleMap
 from footfall.models.values.vector import Vector
 from footfall.systems.planning.crossing.footsteps import FAR, along_way
-from footfall.systems.planning.footsteps.foothold import Refusal, rotate, wrap
+from footfall.systems.planning.footsteps.foothold import Refusal, wrap
 
 EDGE = 0.5
 """Within this of the edge of the floor that was seen, m, an obstacle of 0.3 m may have
@@ -27,16 +28,16 @@ MARGIN = 0.05
 BEYOND = 0.45
 """What the feet need beyond an obstacle to land and to stand, m."""
 NEAR = 0.3
-"""A way this short needs no look, m: the feet are there already."""
+"""A walk this short needs no look, m: the feet are there already."""
 LEAST = 0.1
-"""A leg of the way is at least this long, m."""
+"""A segment is at least this long, m."""
 FACING = np.radians(20.0)
-"""The robot looks along its way when it is turned from it by less, rad."""
+"""The robot looks along the walk when it is turned from it by less, rad."""
 
 
 @dataclass(frozen=True, eq=False)
-class Leg:
-    """What to walk before the next look."""
+class WalkSegment:
+    """A straight walk that ends with the next look."""
 
     goal: Vector
     """Midpoint of the feet and heading, (3,), m and rad."""
@@ -46,10 +47,10 @@ class Leg:
     """Whether it ends at the goal itself."""
 
 
-def seen_leg(
+def plan_walk_segment(
     seen: ObstacleMap, start: Vector, goal: Vector, sole: Sole
-) -> Leg | Refusal:
-    """The next leg of the way to a goal.
+) -> WalkSegment | Refusal:
+    """Plans the next straight segment of the walk to a goal.
 
     Args:
         seen: floor and obstacles of the last look.
@@ -58,14 +59,15 @@ def seen_leg(
         sole: of the feet.
 
     Returns:
-        All of the way where it was seen; else the part of it that was, or a turn on the
-        spot towards it; a refusal where the robot looked and yet saw too little.
+        The walk to the goal where the floor was seen all along; else to where it was,
+        or a turn on the spot towards the goal; a refusal where the robot looked and yet
+        saw too little.
     """
-    way = goal[:2] - start[:2]
-    distance = float(np.linalg.norm(way))
+    offset = goal[:2] - start[:2]
+    distance = float(np.linalg.norm(offset))
     if distance < NEAR:
-        return Leg(goal, seen.obstacles, final=True)
-    yaw = atan2(way[1], way[0])
+        return WalkSegment(goal, seen.obstacles, final=True)
+    yaw = atan2(offset[1], offset[0])
     known = _seen_along(rotate(-yaw, seen.floor_outline - start[:2]))
     stop = known - sole.toe - MARGIN
     certain = []
@@ -77,17 +79,17 @@ def seen_leg(
         else:
             stop = min(stop, front - sole.toe - ROOM)
     if distance <= stop:
-        return Leg(goal, seen.obstacles, final=True)
+        return WalkSegment(goal, seen.obstacles, final=True)
     # Farthest first: where one moves the stop, the next before it has its say.
     extents = [along_way(obstacle, start[:2], yaw) for obstacle in certain]
     for front, back in sorted(extents, reverse=True):
         if front < stop + sole.toe + ROOM and back + BEYOND > stop:
             stop = min(stop, front - sole.toe - ROOM)
     if stop >= LEAST:
-        p = start[:2] + stop * way / distance
-        return Leg(np.array([*p, yaw]), tuple(certain), final=False)
+        p = start[:2] + stop * offset / distance
+        return WalkSegment(np.array([*p, yaw]), tuple(certain), final=False)
     if abs(wrap(yaw - start[2])) > FACING:
-        return Leg(np.array([*start[:2], yaw]), (), final=False)
+        return WalkSegment(np.array([*start[:2], yaw]), (), final=False)
     return Refusal(
         f"the floor towards the goal is seen for {known:.2f} m only: too little to go "
         "nearer and look again"
@@ -95,7 +97,7 @@ def seen_leg(
 
 
 def _seen_along(outline: Vector) -> float:
-    """How far along x from the origin lies in an outline (n, 2), m."""
+    """Computes how far the x axis from the origin runs inside an outline, m."""
     if len(outline) < 3:
         return 0.0
     ray = shapely.LineString([(0.0, 0.0), (FAR, 0.0)])
