@@ -11,7 +11,6 @@ from pydrake.systems.framework import (
 )
 
 from footfall.models.values.vector import Vector
-from footfall.systems.ports import eval_vector
 from footfall.systems.timing import timed
 
 
@@ -108,7 +107,7 @@ class SignalLog(LeafSystem):
         rows = self._rows(context)
         if rows and rows[-1][0] == context.get_time():
             return EventStatus.DidNothing()
-        values = [eval_vector(port, context) for port in self._signals]
+        values = [port.Eval(context) for port in self._signals]
         row: Vector = np.concatenate([[context.get_time()], *values])
         rows.append(row)
         return EventStatus.Succeeded()

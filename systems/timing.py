@@ -7,6 +7,7 @@ from time import perf_counter
 from typing import ParamSpec, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 from pydrake.systems.framework import System
 
 from footfall.systems.callbacks import weakly_bound
@@ -20,6 +21,8 @@ RESOLUTION = 0.02
 """Relative width of a bin: a quantile is off by half of it at most."""
 _PER_LOG = 1.0 / math.log1p(RESOLUTION)
 _BINS = math.ceil(math.log(LONGEST / SHORTEST) * _PER_LOG)
+_BATCH = 1024
+"""Durations that are kept before they are counted."""
 
 
 class _Running(threading.local):
@@ -43,17 +46,20 @@ class Stopwatch:
 
     def __init__(self) -> None:
         """Makes a stopwatch that has measured nothing."""
-        self._bins = [0] * _BINS
+        self._counts: NDArray[np.int64] = np.zeros(_BINS, dtype=np.int64)
         self._total = 0.0
+        self._new: list[float] = []
+        """Not counted yet: many are counted as fast as one."""
 
     @property
     def count(self) -> int:
         """How many calls were measured."""
-        return sum(self._bins)
+        return int(self._bins().sum())
 
     @property
     def total(self) -> float:
         """How long they took together, s."""
+        self._bins()
         return self._total
 
     def quantile(self, share: float) -> float:
@@ -67,28 +73,43 @@ class Stopwatch:
         """
         if self.count == 0:
             raise ValueError("nothing was measured")
-        below = np.cumsum(self._bins)
+        below = np.cumsum(self._bins())
         number = int(np.searchsorted(below, max(1.0, share * below[-1])))
         return SHORTEST * math.exp((number + 0.5) / _PER_LOG)
 
     def add(self, duration: float) -> None:
         """Counts one call, s."""
-        number = int(math.log(max(duration, SHORTEST) / SHORTEST) * _PER_LOG)
-        self._bins[min(number, _BINS - 1)] += 1
-        self._total += duration
+        self._new.append(duration)
+        if len(self._new) >= _BATCH:
+            self._bins()
+
+    def _bins(self) -> NDArray[np.int64]:
+        """Counts what is new and gives the calls in every bin."""
+        if self._new:
+            durations = np.array(self._new)
+            self._new.clear()
+            self._total += float(durations.sum())
+            ratio = np.maximum(durations, SHORTEST) / SHORTEST
+            numbers = (np.log(ratio) * _PER_LOG).astype(np.int64)
+            numbers = np.minimum(numbers, _BINS - 1)
+            self._counts += np.bincount(numbers, minlength=_BINS)
+        return self._counts
 
     def wrap(self, callback: Callable[P, R]) -> Callable[P, R]:
         """Measures a callback."""
+        new, count, running = self._new, self._bins, _RUNNING
 
         def measured(*args: P.args, **kwargs: P.kwargs) -> R:
-            nested = _RUNNING.nested
+            nested = running.nested
             nested.append(0.0)
             start = perf_counter()
             try:
                 return callback(*args, **kwargs)
             finally:
                 elapsed = perf_counter() - start
-                self.add(elapsed - nested.pop())
+                new.append(elapsed - nested.pop())
+                if len(new) >= _BATCH:
+                    count()
                 if nested:
                     nested[-1] += elapsed
 

@@ -68,8 +68,8 @@ def build_robot_station(setup: Setup, meshcat: Meshcat | None = None) -> RobotSt
     """Builds robot, scene, servos, proprioception, what watches the truth, and pushes.
 
     Parts: `plant`, `scene_graph`, `torque_hold`, `kinematic_state`,
-    `foot_wrench_sensor`, `wanted_torque`, `contact_monitor`, `speed_monitor`, `pusher`,
-    `box_mover` where there are boxes that move.
+    `foot_wrench_sensor`, `wanted_torque`, `contact_monitor`, `speed_monitor`,
+    `pusher` where there are pushes, `box_mover` where there are boxes that move.
 
     Args:
         setup: scenario and robot.
@@ -130,9 +130,10 @@ def build_robot_station(setup: Setup, meshcat: Meshcat | None = None) -> RobotSt
         ),
     )
     station.add("speed_monitor", lambda: SpeedMonitor(plant, instance, step))
-    station.add(
-        "pusher", lambda: Pusher(_pushes(scenario, robot.torso_body, plant, instance))
-    )
+    pushes = _pushes(scenario, robot.torso_body, plant, instance)
+    if pushes:
+        station.add("pusher", lambda: Pusher(pushes))
+        station.connect("pusher.spatial_forces", "plant.applied_spatial_force")
 
     state = plant.get_state_output_port(instance).get_name()
     actuation = plant.get_actuation_input_port(instance).get_name()
@@ -149,8 +150,7 @@ def build_robot_station(setup: Setup, meshcat: Meshcat | None = None) -> RobotSt
         "foot_wrench_sensor.contact_results",
         "contact_monitor.contact_results",
     )
-    station.connect("plant.body_poses", "foot_wrench_sensor.body_poses")
-    station.connect("pusher.spatial_forces", "plant.applied_spatial_force")
+    station.connect("kinematic_state.foot_poses", "foot_wrench_sensor.foot_poses")
 
     station.take("torque", "torque_hold.u")
     station.take(

@@ -38,8 +38,10 @@ class Block(NamedTuple):
     outputs: tuple[str, ...]
     station: str
     """The subdiagram that it is in, "" for one that the diagram holds itself."""
-    open: frozenset[str]
-    """Of its ports those that nothing is connected to."""
+    open_inputs: frozenset[str]
+    """Of its inputs those that nothing is connected to."""
+    open_outputs: frozenset[str]
+    """Likewise of its outputs."""
 
 
 class Wire(NamedTuple):
@@ -87,10 +89,8 @@ def topology(diagram: Diagram) -> tuple[list[Block], list[Wire]]:
                 tuple(inputs),
                 tuple(outputs),
                 station,
-                frozenset(
-                    [port for port in inputs if (name, port) not in used_inputs]
-                    + [port for port in outputs if (name, port) not in used_outputs]
-                ),
+                frozenset(port for port in inputs if (name, port) not in used_inputs),
+                frozenset(port for port in outputs if (name, port) not in used_outputs),
             )
         )
     return blocks, wires
@@ -177,13 +177,13 @@ def _label(block: Block) -> str:
         left, right = (
             (
                 f'<TD ALIGN="{side}" PORT="{key}_{escape(ports[row])}">'
-                f"{_port(ports[row], block)}</TD>"
+                f"{_port(ports[row], opened)}</TD>"
             )
             if row < len(ports)
             else "<TD></TD>"
-            for key, side, ports in (
-                ("i", "LEFT", block.inputs),
-                ("o", "RIGHT", block.outputs),
+            for key, side, ports, opened in (
+                ("i", "LEFT", block.inputs, block.open_inputs),
+                ("o", "RIGHT", block.outputs, block.open_outputs),
             )
         )
         body += f"<TR>{left}{right}</TR>"
@@ -200,8 +200,8 @@ def _label(block: Block) -> str:
     )
 
 
-def _port(name: str, block: Block) -> str:
-    if name in block.open:
+def _port(name: str, opened: frozenset[str]) -> str:
+    if name in opened:
         return f'<FONT COLOR="{OPEN_COLOR}">{escape(name)}</FONT>'
     return escape(name)
 

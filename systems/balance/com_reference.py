@@ -45,6 +45,8 @@ class ComReference(LeafSystem):
         )
 
     def _calc(self, context: Context, output: BasicVector) -> None:
-        horizontal = np.array([eval_vector(port, context) for port in self._horizontal])
-        height = eval_vector(self._height, context)
-        set_vector(output, np.column_stack([horizontal, height]).ravel())
+        reference = np.empty((3, 3))
+        for row, port in zip(reference, self._horizontal, strict=True):
+            row[:2] = eval_vector(port, context)
+        reference[:, 2] = eval_vector(self._height, context)
+        set_vector(output, reference.ravel())

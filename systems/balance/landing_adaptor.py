@@ -9,11 +9,11 @@ reference is shifted until the foot itself follows the plan.
 from dataclasses import dataclass
 
 import numpy as np
-from pydrake.systems.framework import BasicVector, Context, DiscreteValues, LeafSystem
+from pydrake.systems.framework import Context, DiscreteValues, LeafSystem
 
 from footfall.models.values.validation import Parameters, number
 from footfall.models.values.vector import Vector
-from footfall.systems.ports import eval_vector, set_vector
+from footfall.systems.ports import declare_state_output, eval_vector, set_state
 from footfall.systems.timing import timed
 
 _ROLL, _PITCH = 3, 4
@@ -171,7 +171,7 @@ class LandingAdaptor(LeafSystem):
     - `contacts` (output): like the input, but a foot counts when it has landed.
 
     The discrete state is, a foot, (offset (6), sag (6), held pose (6), landed, time
-    since lift-off), then the outputs of this tick (28), then the plan's start.
+    since lift-off), then the plan's start; and both outputs.
     """
 
     def __init__(self, params: LandingParams, foot_poses: Vector) -> None:
@@ -188,39 +188,22 @@ class LandingAdaptor(LeafSystem):
         params.validate()
         self._params = params
         stand = _pack(standing())
-        initial: Vector = np.concatenate(
-            [stand, stand, foot_poses, np.zeros(12), [1.0, 1.0, 1.0, 1.0], [0.0]]
-        )
-        self._state = self.DeclareDiscreteState(initial)
+        memory: Vector = np.concatenate([stand, stand, [0.0]])
+        self._memory = int(self.DeclareDiscreteState(memory))
+        still: Vector = np.concatenate([foot_poses, np.zeros(12)])
+        self._tracked = declare_state_output(self, "foot_references", still)
+        self._landed = declare_state_output(self, "contacts", np.ones(4))
         self._references = self.DeclareVectorInputPort("foot_references", 24)
         self._contacts = self.DeclareVectorInputPort("contacts", 4)
         self._plan_start = self.DeclareVectorInputPort("plan_start", 1)
         self._wrenches = self.DeclareVectorInputPort("foot_wrenches", 12)
         self._poses = self.DeclareVectorInputPort("foot_poses", 12)
-        ticket = {self.discrete_state_ticket(self._state)}
-        for name, size, calc in (
-            ("foot_references", 24, self._calc_references),
-            ("contacts", 4, self._calc_contacts),
-        ):
-            self.DeclareVectorOutputPort(
-                name, size, timed(self, calc), prerequisites_of_calc=ticket
-            )
         self.DeclarePeriodicDiscreteUpdateEvent(
             period_sec=params.period, offset_sec=0.0, update=timed(self, self._update)
         )
 
-    def _values(self, context: Context) -> Vector:
-        values: Vector = context.get_discrete_state(int(self._state)).value()
-        return values
-
-    def _calc_references(self, context: Context, output: BasicVector) -> None:
-        set_vector(output, self._values(context)[2 * _SIZE : 2 * _SIZE + 24])
-
-    def _calc_contacts(self, context: Context, output: BasicVector) -> None:
-        set_vector(output, self._values(context)[2 * _SIZE + 24 : 2 * _SIZE + 28])
-
     def _update(self, context: Context, discrete: DiscreteValues) -> None:
-        before = self._values(context)
+        before = context.get_discrete_state(self._memory).value()
         planned, rates = eval_vector(self._references, context).reshape(2, 2, 6)
         contacts = eval_vector(self._contacts, context)
         start = eval_vector(self._plan_start, context)
@@ -244,7 +227,6 @@ class LandingAdaptor(LeafSystem):
             poses.append(pose)
             speeds.append(rate)
             landed.append(float(state.landed))
-        after: Vector = np.concatenate(
-            [*states, *poses, *speeds, landed, contacts[2:], start]
-        )
-        discrete.get_mutable_vector(int(self._state)).SetFromVector(after)
+        set_state(discrete, self._memory, np.concatenate([*states, start]))
+        set_state(discrete, self._tracked, np.concatenate([*poses, *speeds]))
+        set_state(discrete, self._landed, np.array([*landed, *contacts[2:]]))

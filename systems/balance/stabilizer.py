@@ -14,6 +14,7 @@ from footfall.systems.balance.wrench_distribution import (
     distribute_wrench,
 )
 from footfall.systems.balance.zmp_preview import GRAVITY
+from footfall.systems.cached import declare_cached
 from footfall.systems.ports import eval_vector, set_vector
 from footfall.systems.timing import timed
 
@@ -162,6 +163,9 @@ class Stabilizer(LeafSystem):
             port.ticket()
             for port in (self._com, self._velocity, self._reference, self._zmp)
         }
+        self._command = declare_cached(
+            self, "balance command", self._calc_command, feedback
+        )
         self.DeclareVectorOutputPort(
             "foot_wrenches",
             12,
@@ -186,7 +190,7 @@ class Stabilizer(LeafSystem):
                 name, 2, timed(self, calc), prerequisites_of_calc=feedback
             )
 
-    def _command(self, context: Context) -> BalanceCommand:
+    def _calc_command(self, context: Context) -> BalanceCommand:
         reference = eval_vector(self._reference, context)
         return dcm_feedback(
             eval_vector(self._com, context),

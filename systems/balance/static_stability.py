@@ -10,6 +10,7 @@ from pydrake.systems.framework import BasicVector, Context, LeafSystem, State
 from footfall.models.robots.robot import Sole
 from footfall.models.values.contact import StancePolygon
 from footfall.models.values.value import Value
+from footfall.models.values.vector import Vector
 from footfall.systems.balance.contact_wrench_cone import Contact, sole_contact
 from footfall.systems.balance.convex_polygon import signed_margin
 from footfall.systems.balance.sole_contacts import carrying_contact, moved_by
@@ -30,6 +31,8 @@ class _Stance(Value):
         default_factory=lambda: StabilityPolygon(status="no_contact")
     )
     caught: int = 0
+    seen: Vector = field(default_factory=lambda: np.full(16, np.inf))
+    """Poses and contacts that it was made of, (16,)."""
 
 
 class StaticStability(LeafSystem):
@@ -151,6 +154,9 @@ class StaticStability(LeafSystem):
         others: tuple[Contact, ...] = ()
         if self._other_contacts.HasValue(context):
             others = eval_abstract(self._other_contacts, context, tuple)
+        seen: Vector = np.concatenate([poses, contacts])
+        if others == held.others and self._surely_same(seen, held.seen):
+            return
         soles = tuple(
             carrying_contact(pose, length, self._sole, self._friction)
             for pose, stands, length in zip(
@@ -162,8 +168,21 @@ class StaticStability(LeafSystem):
             return
         polygon = static_polygon([*soles, *others])
         self._stance.set(
-            state, _Stance(True, soles, others, polygon, held.caught + polygon.caught)
+            state,
+            _Stance(True, soles, others, polygon, held.caught + polygon.caught, seen),
         )
+
+    def _surely_same(self, seen: Vector, before: Vector) -> bool:
+        """Tells from numbers alone that no corner of a sole that stands has moved.
+
+        A corner moves by less than the largest change of its pose's six numbers times
+        one and three arms, which are less than 1 m.
+        """
+        stands = np.repeat(seen[12:14] > 0.5, 6)
+        if (seen[12:] != before[12:]).any():
+            return False
+        change = np.abs(seen[:12] - before[:12])[stands]
+        return bool(not change.size or 5.0 * change.max() <= self._tolerance)
 
     def _same(self, soles: tuple[Contact, ...], before: tuple[Contact, ...]) -> bool:
         """Tells whether no sole came, went or moved; lifted toes stay."""

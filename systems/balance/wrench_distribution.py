@@ -5,6 +5,7 @@ from functools import lru_cache
 
 import daqp
 import numpy as np
+from pydrake.math import VectorToSkewSymmetric
 
 from footfall.models.robots.robot import Sole
 from footfall.models.values.validation import Parameters, number
@@ -59,8 +60,13 @@ def _cone(half_length: float, half_width: float, friction: float) -> Vector:
     return cone
 
 
-def _cross_matrix(p: Vector) -> Vector:
-    return np.array([[0.0, -p[2], p[1]], [p[2], 0.0, -p[0]], [-p[1], p[0], 0.0]])
+@lru_cache(maxsize=64)
+def _costs(feet: int, tangential: float, moment: tuple[float, ...]) -> Vector:
+    """Makes the part of the Hessian that does not change."""
+    cost = [tangential, tangential, 0.0, *moment]
+    hessian: Vector = np.diag(np.tile(cost, feet)) + 1e-7 * np.eye(6 * feet)
+    hessian.setflags(write=False)
+    return hessian
 
 
 def distribute_wrench(
@@ -101,65 +107,45 @@ def distribute_wrench(
     if not feet:
         return wrenches, True
     n = 6 * len(feet)
-    grasp = np.zeros((6, n))
+    # From wrenches at the carrying contacts, in their frames, to the net wrench about
+    # the CoM and to the wrenches about F, both in W.
+    grasp, spread = np.zeros((6, n)), np.zeros((12, n))
     cones = np.zeros((16 * len(feet), n))
     upper = np.full(n + len(cones), 1e5)
     lower = np.full(n + len(cones), -1e6)
     upper[n:] = 0.0
-    cost = np.concatenate(
-        [[params.tangential_cost, params.tangential_cost, 0.0], params.moment_cost]
-    )
-    arms, rotations = [], []
     for k, i in enumerate(feet):
-        block = slice(6 * k, 6 * k + 6)
+        c = 6 * k
         contact = carrying_contact(foot_poses[i], lengths[i], sole, params.friction)
         R_WC: Vector = contact.X_WC.rotation().matrix()
         p_WC = contact.X_WC.translation()
-        arm = p_WC - foot_poses[i, :3]
-        grasp[:3, block][:, :3] = R_WC
-        grasp[3:, block][:, :3] = _cross_matrix(p_WC - p_WCom) @ R_WC
-        grasp[3:, block][:, 3:] = R_WC
+        grasp[:3, c : c + 3] = R_WC
+        grasp[3:, c : c + 3] = VectorToSkewSymmetric(p_WC - p_WCom) @ R_WC
+        grasp[3:, c + 3 : c + 6] = R_WC
+        about_F = spread[6 * i : 6 * i + 6]
+        about_F[:3, c : c + 3] = R_WC
+        about_F[3:, c : c + 3] = VectorToSkewSymmetric(p_WC - foot_poses[i, :3]) @ R_WC
+        about_F[3:, c + 3 : c + 6] = R_WC
         half = 0.5 * lengths[i]
-        cones[16 * k : 16 * k + 16, block] = _cone(
+        cones[16 * k : 16 * k + 16, c : c + 6] = _cone(
             max(half - params.edge_margin, 0.5 * half),
             sole.half_width - params.edge_margin,
             params.friction,
         )
-        lower[6 * k + 2] = params.min_force
-        arms.append(arm)
-        rotations.append(R_WC)
+        lower[c + 2] = params.min_force
     weights = np.array(
         [params.force_weight] * 3 + [params.moment_weight] * 2 + [params.yaw_weight]
     )
     weighted = weights[:, None] * grasp
-    hessian = grasp.T @ weighted + np.diag(np.tile(cost, len(feet)))
-    hessian += 1e-7 * np.eye(n)
-    gradient = -weighted.T @ net
+    hessian = grasp.T @ weighted
+    hessian += _costs(len(feet), params.tangential_cost, tuple(params.moment_cost))
+    gradient = -(net @ weighted)
     if torques is not None and params.torque_cost > 0.0:
-        spread = np.zeros((12, n))
-        for k, i in enumerate(feet):
-            block = slice(6 * k, 6 * k + 6)
-            spread[6 * i : 6 * i + 3, block][:, :3] = rotations[k]
-            spread[6 * i + 3 : 6 * i + 6, block][:, :3] = (
-                _cross_matrix(arms[k]) @ rotations[k]
-            )
-            spread[6 * i + 3 : 6 * i + 6, block][:, 3:] = rotations[k]
         M = torques.matrix @ spread
-        hessian += params.torque_cost * M.T @ M
-        gradient -= params.torque_cost * M.T @ torques.offset
-    solution, _, status, _ = daqp.solve(
-        hessian,
-        gradient,
-        cones,
-        upper,
-        lower,
-        np.zeros(len(upper), dtype=np.int32),
-    )
+        hessian += params.torque_cost * (M.T @ M)
+        gradient -= params.torque_cost * (torques.offset @ M)
+    sense = np.zeros(len(upper), dtype=np.int32)
+    solution, _, status, _ = daqp.solve(hessian, gradient, cones, upper, lower, sense)
     if status < 1:
         return wrenches, False
-    for k, i in enumerate(feet):
-        force = rotations[k] @ solution[6 * k : 6 * k + 3]
-        moment = rotations[k] @ solution[6 * k + 3 : 6 * k + 6]
-        wrenches[i, :3] = force
-        wrenches[i, 3:] = moment + _cross_matrix(arms[k]) @ force
-    return wrenches, True
+    return (spread @ solution).reshape(2, 6), True

@@ -1,7 +1,5 @@
 """The preview controller as a System: ZMP reference in, CoM reference out."""
 
-from functools import partial
-
 import numpy as np
 from pydrake.systems.framework import BasicVector, Context, DiscreteValues, LeafSystem
 
@@ -12,9 +10,13 @@ from footfall.systems.balance.zmp_preview import (
     preview_gains,
     preview_step,
     rest_error_sum,
-    rest_state,
 )
-from footfall.systems.ports import eval_vector, set_vector
+from footfall.systems.ports import (
+    declare_state_output,
+    eval_vector,
+    set_state,
+    set_vector,
+)
 from footfall.systems.timing import timed
 
 
@@ -43,8 +45,8 @@ class ZmpPreviewController(LeafSystem):
     - `com_acceleration`: a_WCom, (2,), m/s^2.
     - `zmp`: p_WZmp that this motion has under the cart-table model, (2,), m.
 
-    The discrete state is (x, y) rows of position, velocity and acceleration, then the
-    sums of the ZMP error, (8,). Outputs depend on the state alone.
+    The discrete state is position, velocity, acceleration and the sums of the ZMP
+    error, (2,) each. Outputs depend on the state alone.
     """
 
     def __init__(
@@ -65,26 +67,26 @@ class ZmpPreviewController(LeafSystem):
         params = params or ZmpPreviewParams()
         self._gains = preview_gains(params)
         rest: Vector = np.array(initial_com, dtype=np.float64)
-        initial: Vector = np.concatenate(
-            [rest_state(rest).ravel(), rest_error_sum(self._gains, rest)]
-        )
-        self._state = self.DeclareDiscreteState(initial)
+        still: Vector = np.zeros(2)
+        self._derivatives = [
+            declare_state_output(self, name, value)
+            for name, value in (
+                ("com", rest),
+                ("com_velocity", still),
+                ("com_acceleration", still),
+            )
+        ]
+        self._error = int(self.DeclareDiscreteState(rest_error_sum(self._gains, rest)))
         self._zmp_preview = self.DeclareVectorInputPort(
             "zmp_preview", 2 * (self._gains.horizon + 1)
         )
         self._reset = self.DeclareVectorInputPort("reset", 5)
-        for name, row in (
-            ("com", np.array([1.0, 0.0, 0.0])),
-            ("com_velocity", np.array([0.0, 1.0, 0.0])),
-            ("com_acceleration", np.array([0.0, 0.0, 1.0])),
-            ("zmp", self._gains.C),
-        ):
-            self.DeclareVectorOutputPort(
-                name,
-                2,
-                timed(self, partial(self._calc_row, row)),
-                prerequisites_of_calc={self.discrete_state_ticket(self._state)},
-            )
+        self.DeclareVectorOutputPort(
+            "zmp",
+            2,
+            timed(self, self._calc_zmp),
+            prerequisites_of_calc={self.xd_ticket()},
+        )
         self.DeclarePeriodicDiscreteUpdateEvent(
             period_sec=params.period, offset_sec=0.0, update=timed(self, self._update)
         )
@@ -94,12 +96,12 @@ class ZmpPreviewController(LeafSystem):
         """The law; its `horizon` gives the size of `zmp_preview`."""
         return self._gains
 
-    def _calc_row(self, row: Vector, context: Context, output: BasicVector) -> None:
-        set_vector(output, self._motion(context)[0] @ row)
+    def _calc_zmp(self, context: Context, output: BasicVector) -> None:
+        set_vector(output, self._motion(context)[0] @ self._gains.C)
 
     def _motion(self, context: Context) -> tuple[Vector, Vector]:
-        value = context.get_discrete_state(int(self._state)).value()
-        return value[:6].reshape(2, 3), value[6:]
+        held = [context.get_discrete_state(i).value() for i in self._derivatives]
+        return np.array(held).T, context.get_discrete_state(self._error).value()
 
     def _update(self, context: Context, discrete: DiscreteValues) -> None:
         state, error_sum = self._motion(context)
@@ -110,5 +112,6 @@ class ZmpPreviewController(LeafSystem):
                 state = np.column_stack([reset[1:3], reset[3:5], np.zeros(2)])
                 error_sum = rest_error_sum(self._gains, zmp_preview[:, 0])
         state, error_sum, _ = preview_step(self._gains, state, error_sum, zmp_preview)
-        value: Vector = np.concatenate([state.ravel(), error_sum])
-        discrete.get_mutable_vector(int(self._state)).SetFromVector(value)
+        for index, derivative in zip(self._derivatives, state.T, strict=True):
+            set_state(discrete, index, derivative)
+        set_state(discrete, self._error, error_sum)

@@ -1,10 +1,11 @@
 """What the robot touches, and with what force it meets the ground."""
 
+import math
+
 import numpy as np
 from pydrake.common.value import AbstractValue, Value
 from pydrake.multibody.plant import ContactResults
 from pydrake.systems.framework import (
-    BasicVector,
     Context,
     DiscreteValues,
     LeafSystem,
@@ -12,7 +13,7 @@ from pydrake.systems.framework import (
 
 from footfall.models.values.contact import Touch, Touches
 from footfall.models.values.vector import Vector
-from footfall.systems.ports import eval_abstract, set_vector
+from footfall.systems.ports import declare_state_output, eval_abstract, set_state
 from footfall.systems.sensing.moving_mean import window_weights
 from footfall.systems.sensing.robot_contacts import (
     RobotContact,
@@ -84,25 +85,20 @@ class ContactMonitor(LeafSystem):
             "contact_results", Value(ContactResults())
         )
 
-        def state(size: int) -> int:
-            return int(self.DeclareDiscreteState(size))
-
-        self._touching, self._durations, self._forces = (
-            state(1),
-            state(pairs),
-            state(pairs),
+        self._durations = int(self.DeclareDiscreteState(pairs))
+        self._forces = int(self.DeclareDiscreteState(pairs))
+        self._window = int(self.DeclareDiscreteState(9 * len(self._weights)))
+        self._touching, self._feet, self._support, self._impact, self._ratio = (
+            declare_state_output(self, name, np.zeros(size))
+            for name, size in (
+                ("touching", 1),
+                ("foot_forces", 6),
+                ("other_support", 1),
+                ("impact", 2),
+                ("friction_ratio", 1),
+            )
         )
-        self._window = state(9 * len(self._weights))
-        self._mean, self._impact, self._ratio = state(9), state(2), state(1)
         self.DeclarePeriodicDiscreteUpdateEvent(period, 0.0, timed(self, self._update))
-        for name, index, part in (
-            ("touching", self._touching, slice(0, 1)),
-            ("foot_forces", self._mean, slice(0, 6)),
-            ("other_support", self._mean, slice(8, 9)),
-            ("impact", self._impact, slice(0, 2)),
-            ("friction_ratio", self._ratio, slice(0, 1)),
-        ):
-            self._declare_output(name, index, part)
         self.DeclareAbstractOutputPort(
             "touches",
             lambda: Value[object](Touches()),
@@ -110,39 +106,33 @@ class ContactMonitor(LeafSystem):
             prerequisites_of_calc={self.xd_ticket()},
         )
 
-    def _declare_output(self, name: str, index: int, part: slice) -> None:
-        def calc(context: Context, output: BasicVector) -> None:
-            held: Vector = context.get_discrete_state(index).value()
-            set_vector(output, held[part])
-
-        self.DeclareVectorOutputPort(
-            name,
-            part.stop - part.start,
-            timed(self, calc),
-            prerequisites_of_calc={self.xd_ticket()},
-        )
-
     def _update(self, context: Context, state: DiscreteValues) -> None:
         results = eval_abstract(self._results, context, ContactResults)
         contacts = robot_contacts(results, self._watched)
-        window: Vector = state.get_mutable_value(self._window)
-        window[9:] = window[:-9].copy()
-        window[:9] = scene_forces(contacts, self._watched).ravel()
+        before = context.get_discrete_state(self._window).value()
+        now = scene_forces(contacts, self._watched).ravel()
+        window = np.concatenate([now, before[:-9]])
         mean: Vector = self._weights @ window.reshape(-1, 9)
-        state.get_mutable_value(self._mean)[:] = mean
+        set_state(state, self._window, window)
+        set_state(state, self._feet, mean[:6])
+        set_state(state, self._support, mean[8:])
         self._keep_largest(mean, state)
         forbidden = [contact for contact in contacts if not contact.allowed]
-        state.get_mutable_value(self._touching)[0] = len(forbidden)
+        set_state(state, self._touching, np.array([len(forbidden)], dtype=np.float64))
         if forbidden:
             self._keep_touches(forbidden, state)
 
     def _keep_largest(self, mean: Vector, state: DiscreteValues) -> None:
-        impact = state.get_mutable_value(self._impact)
-        ratio = state.get_mutable_value(self._ratio)
-        for foot, force in enumerate(mean[:6].reshape(2, 3)):
-            impact[foot] = max(impact[foot], force[2])
-            if force[2] > LOADED * self._weight:
-                ratio[0] = max(ratio[0], np.hypot(force[0], force[1]) / force[2])
+        impact = state.value(self._impact).copy()
+        ratio = float(state.value(self._ratio)[0])
+        feet = mean[:6].tolist()
+        for foot, (x, y, z) in enumerate((feet[:3], feet[3:])):
+            if z > impact[foot]:
+                impact[foot] = z
+            if z > LOADED * self._weight:
+                ratio = max(ratio, math.hypot(x, y) / z)
+        set_state(state, self._impact, impact)
+        set_state(state, self._ratio, np.array([ratio], dtype=np.float64))
 
     def _keep_touches(
         self, contacts: list[RobotContact], state: DiscreteValues

@@ -1,7 +1,7 @@
 """The robot's contacts of one plant step: which part met what, with what force."""
 
 from collections.abc import Callable, Container, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +20,17 @@ class Part(NamedTuple):
     sole: bool
 
 
+class Pair(NamedTuple):
+    """What it is when two geometries meet: see `RobotContact`."""
+
+    body: int
+    sole: bool
+    other: int
+    allowed: bool
+    sign: float
+    """Of the force on the first of the pair."""
+
+
 @dataclass(frozen=True)
 class WatchedGeometry:
     """The collision geometries of a robot and of all that is around it."""
@@ -35,6 +46,8 @@ class WatchedGeometry:
     part_of: Mapping[GeometryId, Part]
     solid_of: Mapping[GeometryId, int]
     """Index into `solids`."""
+    pairs: dict[tuple[int, int], Pair | None] = field(default_factory=dict)
+    """Those that have met so far, by the ids' values."""
 
     @property
     def others(self) -> tuple[str, ...]:
@@ -150,6 +163,20 @@ def _contact(
     watched: WatchedGeometry, pushed: GeometryId, other: GeometryId, force: Vector
 ) -> RobotContact | None:
     """Gives the contact of `pushed`, on which the force acts, with `other`."""
+    key = (pushed.get_value(), other.get_value())
+    if key not in watched.pairs:
+        watched.pairs[key] = _pair(watched, pushed, other)
+    pair = watched.pairs[key]
+    if pair is None:
+        return None
+    acting = force if pair.sign > 0.0 else -force
+    return RobotContact(pair.body, pair.sole, pair.other, pair.allowed, acting)
+
+
+def _pair(
+    watched: WatchedGeometry, pushed: GeometryId, other: GeometryId
+) -> Pair | None:
+    """Tells what it is when two geometries meet; None where the robot has no part."""
     part, sign = watched.part_of.get(pushed), 1.0
     if part is None:
         part, other, sign = watched.part_of.get(other), pushed, -1.0
@@ -161,9 +188,9 @@ def _contact(
         if met.body < part.body:  # the pair has one order, whichever is pushed
             part, met, sign = met, part, -sign
         index = len(watched.solids) + met.body
-        return RobotContact(part.body, part.sole, index, False, sign * force)
+        return Pair(part.body, part.sole, index, False, sign)
     allowed = part.sole and solid in watched.ground
-    return RobotContact(part.body, part.sole, solid, allowed, sign * force)
+    return Pair(part.body, part.sole, solid, allowed, sign)
 
 
 def scene_forces(contacts: list[RobotContact], watched: WatchedGeometry) -> Vector:
@@ -173,11 +200,14 @@ def scene_forces(contacts: list[RobotContact], watched: WatchedGeometry) -> Vect
     bears beside its sole is in two of them.
     """
     forces = np.zeros((3, 3))
-    for contact in contacts:
-        if contact.other >= len(watched.solids):
+    left, right = watched.feet
+    for body, sole, other, _, force in contacts:
+        if other >= len(watched.solids):
             continue
-        if contact.body in watched.feet:
-            forces[watched.feet.index(contact.body)] += contact.force
-        if not contact.sole:
-            forces[2] += contact.force
+        if body == left:
+            forces[0] += force
+        elif body == right:
+            forces[1] += force
+        if not sole:
+            forces[2] += force
     return forces

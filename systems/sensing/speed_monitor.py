@@ -4,14 +4,13 @@ import numpy as np
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import ModelInstanceIndex
 from pydrake.systems.framework import (
-    BasicVector,
     Context,
     DiscreteValues,
     LeafSystem,
 )
 
 from footfall.models.values.vector import Vector
-from footfall.systems.ports import set_vector
+from footfall.systems.ports import declare_state_output
 from footfall.systems.timing import timed
 
 
@@ -72,19 +71,11 @@ class SpeedMonitor(LeafSystem):
         self._state = self.DeclareVectorInputPort(
             "state", plant.num_multibody_states(instance)
         )
-        self._peaks = int(self.DeclareDiscreteState(len(self._columns)))
+        still: Vector = np.zeros(len(self._columns))
+        self._peaks = declare_state_output(self, "peak_speeds", still)
         self.DeclarePeriodicDiscreteUpdateEvent(period, 0.0, timed(self, self._update))
-        self.DeclareVectorOutputPort(
-            "peak_speeds",
-            len(self._columns),
-            timed(self, self._calc_peaks),
-            prerequisites_of_calc={self.xd_ticket()},
-        )
 
     def _update(self, context: Context, state: DiscreteValues) -> None:
         velocities: Vector = self._state.Eval(context)[self._columns]  # type: ignore[index]
         peaks = state.get_mutable_value(self._peaks)
         peaks[:] = np.maximum(peaks, np.abs(velocities))
-
-    def _calc_peaks(self, context: Context, output: BasicVector) -> None:
-        set_vector(output, context.get_discrete_state(self._peaks).value())

@@ -2,12 +2,12 @@
 
 import numpy as np
 from pydrake.multibody.plant import MultibodyPlant
-from pydrake.systems.framework import BasicVector, Context, DiscreteValues, LeafSystem
+from pydrake.systems.framework import Context, DiscreteValues, LeafSystem
 
 from footfall.models.robots.robot import RobotModel
 from footfall.models.values.vector import Vector
 from footfall.systems.plant_cache import declare_scratch_context
-from footfall.systems.ports import eval_vector, set_vector
+from footfall.systems.ports import declare_state_output, eval_vector, set_state
 from footfall.systems.timing import timed
 from footfall.systems.tracking.whole_body_ik import (
     IkParams,
@@ -15,6 +15,9 @@ from footfall.systems.tracking.whole_body_ik import (
     WholeBodyIk,
     integrate,
 )
+
+_Q, _V, _VDOT, _JOINTS = range(4)
+"""The groups of the discrete state."""
 
 
 class IkTracker(LeafSystem):
@@ -49,7 +52,7 @@ class IkTracker(LeafSystem):
     - `joint_references`: q of the actuated joints, then v, (2 na,), rad, rad/s: what a
       MultibodyPlant's `desired_state` port takes.
 
-    The discrete state is q, v and the acceleration.
+    The discrete state is q, v, the acceleration and the joints' references.
     """
 
     def __init__(
@@ -83,48 +86,28 @@ class IkTracker(LeafSystem):
         ]
         self._q_rows = np.array([joint.position_start() for joint in joints])
         self._v_rows = np.array([joint.velocity_start() for joint in joints])
-        initial: Vector = np.concatenate([positions, np.zeros(2 * nv)])
-        self._state = self.DeclareDiscreteState(initial)
+        for name, value in (
+            ("positions", positions),
+            ("velocities", np.zeros(nv)),
+            ("accelerations", np.zeros(nv)),
+            ("joint_references", self._joint_references(positions, np.zeros(nv))),
+        ):
+            declare_state_output(self, name, value)
         self._com = self.DeclareVectorInputPort("com_reference", 9)
         self._feet = self.DeclareVectorInputPort("foot_references", 24)
         self._contacts = self.DeclareVectorInputPort("contacts", 4)
         self._waist = self.DeclareVectorInputPort("waist", 6)
         self._arms = self.DeclareVectorInputPort("arms", 2)
         self._scratch = declare_scratch_context(self, plant)
-        ticket = {self.discrete_state_ticket(self._state)}
-        for name, size, calc in (
-            ("positions", nq, self._calc_positions),
-            ("velocities", nv, self._calc_velocities),
-            ("accelerations", nv, self._calc_accelerations),
-            ("joint_references", 2 * len(joints), self._calc_joint_references),
-        ):
-            self.DeclareVectorOutputPort(
-                name, size, timed(self, calc), prerequisites_of_calc=ticket
-            )
         self.DeclarePeriodicDiscreteUpdateEvent(
             period_sec=params.period, offset_sec=0.0, update=timed(self, self._update)
         )
 
-    def _values(self, context: Context) -> tuple[Vector, Vector, Vector]:
-        values = context.get_discrete_state(int(self._state)).value()
-        nq, nv = self._nq, self._nv
-        return values[:nq], values[nq : nq + nv], values[nq + nv :]
-
-    def _calc_positions(self, context: Context, output: BasicVector) -> None:
-        set_vector(output, self._values(context)[0])
-
-    def _calc_velocities(self, context: Context, output: BasicVector) -> None:
-        set_vector(output, self._values(context)[1])
-
-    def _calc_accelerations(self, context: Context, output: BasicVector) -> None:
-        set_vector(output, self._values(context)[2])
-
-    def _calc_joint_references(self, context: Context, output: BasicVector) -> None:
-        q, v, _ = self._values(context)
-        set_vector(output, np.concatenate([q[self._q_rows], v[self._v_rows]]))
+    def _joint_references(self, q: Vector, v: Vector) -> Vector:
+        return np.concatenate([q[self._q_rows], v[self._v_rows]])
 
     def _update(self, context: Context, discrete: DiscreteValues) -> None:
-        q, v_before, _ = self._values(context)
+        q, v_before = (context.get_discrete_state(i).value() for i in (_Q, _V))
         com = eval_vector(self._com, context)
         feet = eval_vector(self._feet, context).reshape(2, 2, 6)
         waist = eval_vector(self._waist, context)
@@ -146,5 +129,7 @@ class IkTracker(LeafSystem):
         self._plant.SetPositions(plant_context, q)
         v, _ = self._ik.solve(plant_context, target)
         q = integrate(self._plant, plant_context, v, self._params.period)
-        after: Vector = np.concatenate([q, v, (v - v_before) / self._params.period])
-        discrete.get_mutable_vector(int(self._state)).SetFromVector(after)
+        set_state(discrete, _Q, q)
+        set_state(discrete, _V, v)
+        set_state(discrete, _VDOT, (v - v_before) / self._params.period)
+        set_state(discrete, _JOINTS, self._joint_references(q, v))

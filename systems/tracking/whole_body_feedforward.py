@@ -1,5 +1,7 @@
 """Joint torques that a reference motion needs, given the wrenches under the feet."""
 
+from typing import NamedTuple
+
 import numpy as np
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import JacobianWrtVariable, MultibodyForces, RigidBody
@@ -8,6 +10,7 @@ from pydrake.systems.framework import BasicVector, Context, LeafSystem
 from footfall.models.robots.robot import RobotModel
 from footfall.models.values.feet import FEET
 from footfall.models.values.vector import Vector
+from footfall.systems.cached import declare_cached
 from footfall.systems.plant_cache import declare_scratch_context
 from footfall.systems.ports import eval_vector, set_vector
 from footfall.systems.timing import timed
@@ -34,7 +37,10 @@ def momentum_rate(plant: MultibodyPlant, context: Context, forces: Vector) -> Ve
     """
     p_WBase = plant.GetPositions(context)[4:7]
     p_WCom = plant.CalcCenterOfMassPositionInWorld(context)
-    rate: Vector = forces[:3] + np.cross(p_WBase - p_WCom, forces[3:6])
+    x, y, z = (p_WBase - p_WCom).tolist()
+    f_x, f_y, f_z = forces[3:6].tolist()
+    lever = (y * f_z - z * f_y, z * f_x - x * f_z, x * f_y - y * f_x)
+    rate: Vector = forces[:3] + np.array(lever)
     return rate
 
 
@@ -61,6 +67,16 @@ def foot_torque_matrix(
         )
         columns += [J[3:].T, J[:3].T]
     return np.hstack(columns)
+
+
+class _Dynamics(NamedTuple):
+    """What a motion needs at a tick."""
+
+    forces: Vector
+    """See `needed_forces`."""
+    momentum_rate: Vector
+    foot_torques: Vector
+    """See `foot_torque_matrix`."""
 
 
 class WholeBodyFeedforward(LeafSystem):
@@ -129,6 +145,9 @@ class WholeBodyFeedforward(LeafSystem):
         self._wrenches = self.DeclareVectorInputPort("foot_wrenches", 12)
         self._scratch = declare_scratch_context(self, plant)
         motion = {port.ticket() for port in (self._q, self._v, self._vdot)}
+        self._dynamics = declare_cached(
+            self, "dynamics of the motion", self._calc_dynamics, motion
+        )
         self.DeclareVectorOutputPort(
             "torque",
             len(actuators),
@@ -149,27 +168,31 @@ class WholeBodyFeedforward(LeafSystem):
             prerequisites_of_calc=motion,
         )
 
-    def _forces(self, context: Context) -> tuple[Context, Vector]:
+    def _calc_dynamics(self, context: Context) -> "_Dynamics":
         scratch = self._scratch(context)
         self._plant.SetPositions(scratch, eval_vector(self._q, context))
         self._plant.SetVelocities(scratch, eval_vector(self._v, context))
-        acceleration: Vector = np.clip(
-            eval_vector(self._vdot, context), -self._largest, self._largest
+        acceleration: Vector = np.minimum(
+            np.maximum(eval_vector(self._vdot, context), -self._largest), self._largest
         )
-        return scratch, needed_forces(self._plant, scratch, acceleration)
+        forces = needed_forces(self._plant, scratch, acceleration)
+        return _Dynamics(
+            forces,
+            momentum_rate(self._plant, scratch, forces),
+            foot_torque_matrix(self._plant, scratch, self._feet, self._p_BF),
+        )
 
     def _calc_torque(self, context: Context, output: BasicVector) -> None:
-        scratch, forces = self._forces(context)
-        matrix = foot_torque_matrix(self._plant, scratch, self._feet, self._p_BF)
-        forces = forces - matrix @ eval_vector(self._wrenches, context)
-        set_vector(output, np.clip(forces[self._rows], -self._effort, self._effort))
+        dynamics = self._dynamics(context)
+        wrenches = eval_vector(self._wrenches, context)
+        forces = dynamics.forces - dynamics.foot_torques @ wrenches
+        torque = np.minimum(forces[self._rows], self._effort)
+        set_vector(output, np.maximum(torque, -self._effort))
 
     def _calc_momentum_rate(self, context: Context, output: BasicVector) -> None:
-        scratch, forces = self._forces(context)
-        set_vector(output, momentum_rate(self._plant, scratch, forces))
+        set_vector(output, self._dynamics(context).momentum_rate)
 
     def _calc_leg_torque_map(self, context: Context, output: BasicVector) -> None:
-        scratch, forces = self._forces(context)
-        matrix = foot_torque_matrix(self._plant, scratch, self._feet, self._p_BF)
-        rows = self._leg_rows
-        set_vector(output, np.concatenate([forces[rows], matrix[rows].ravel()]))
+        dynamics, rows = self._dynamics(context), self._leg_rows
+        legs = [dynamics.forces[rows], dynamics.foot_torques[rows].ravel()]
+        set_vector(output, np.concatenate(legs))

@@ -19,6 +19,10 @@ from footfall.models.values.feet import FEET
 from footfall.models.values.validation import Parameters, number
 from footfall.models.values.vector import Vector
 
+_EQUALITY = 5
+"""Of a constraint, in DAQP's code."""
+_ORIGIN: Vector = np.zeros(3)
+
 
 @dataclass(kw_only=True)
 class IkParams(Parameters):
@@ -120,12 +124,25 @@ class WholeBodyIk:
             self._lower[row] = max(self._lower[row], least)
             self._upper[row] = min(self._upper[row], most)
         self._speed = params.speed_share * plant.GetVelocityUpperLimits()[6:]
-        self._posture_weight = np.full(nv, params.posture_weight)
-        self._posture_weight[:6] = 0.0
+        posture = np.full(nv, params.posture_weight)
+        posture[:6] = 0.0
         for leg in robot.leg_joints.values():
             for name in leg:
-                index = plant.GetJointByName(name).velocity_start()
-                self._posture_weight[index] = params.leg_weight
+                posture[plant.GetJointByName(name).velocity_start()] = params.leg_weight
+        self._posture_weight = posture[6:]
+        self._base_hessian = np.diag(posture + params.damping)
+        free = [params.free_weight] * 6
+        self._soft_weights = np.array(
+            [
+                *([params.com_weight] * 2 + [params.height_weight]),
+                *([params.waist_weight] * 2 + [params.waist_yaw_weight]),
+                *(free * 2),
+            ]
+        )[:, None]
+        self._senses = [
+            np.array([0] * nv + [_EQUALITY] * rows, dtype=np.int32)
+            for rows in (0, 6, 12)
+        ]
         self.posture = default_posture(plant, robot)
         swing = [plant.GetJointByName(name) for name in robot.swing_joints]
         self._swing = np.array([joint.velocity_start() for joint in swing], dtype=int)
@@ -142,88 +159,88 @@ class WholeBodyIk:
             their error is minimised with a high weight.
         """
         plant, params, gain = self._plant, self._params, self._params.gain
-        world = plant.world_frame()
-        kv = JacobianWrtVariable.kV
         q = plant.GetPositions(context)
-        J_com = plant.CalcJacobianCenterOfMassTranslationalVelocity(
+        joints = q[7:]
+        feet = [row for row in (0, 1) if target.stance[row] <= 0.5]
+        held = [row for row in (0, 1) if target.stance[row] > 0.5]
+        # Rows of what is minimised: CoM, waist, free feet; below them the held feet.
+        J, v = self._tasks(context, target, [*feet, *held])
+        soft = 6 + 6 * len(feet)
+        weighted = J[:soft] * self._soft_weights[:soft]
+        hessian = self._base_hessian + weighted.T @ J[:soft]
+        gradient = -(v[:soft] @ weighted)
+        sought = params.posture_gain * (self.posture[7:] - joints)
+        sought[self._swing - 6] += target.arms_rate + params.posture_gain * target.arms
+        gradient[6:] -= self._posture_weight * sought
+        nv, rows = len(gradient), len(v) - soft
+        upper, lower = np.empty(nv + rows), np.empty(nv + rows)
+        upper[:6], lower[:6] = 1e3, -1e3
+        most, least = upper[6:nv], lower[6:nv]
+        np.minimum(self._speed, gain * (self._upper - joints), out=most)
+        np.maximum(-self._speed, gain * (self._lower - joints), out=least)
+        # A joint beyond a limit may not be asked to return faster than it can.
+        np.maximum(most, -self._speed, out=most)
+        np.minimum(least, most, out=least)
+        upper[nv:] = lower[nv:] = v[soft:]
+        A = J[soft:]
+        found, solved = self._solve_qp(hessian, gradient, A, upper, lower)
+        if solved:
+            return found, True
+        weighted = 10.0 * params.com_weight * A
+        hessian += weighted.T @ A
+        gradient -= v[soft:] @ weighted
+        found, solved = self._solve_qp(hessian, gradient, A[:0], upper[:nv], lower[:nv])
+        if not solved:
+            raise RuntimeError("the IK's QP has no solution within the joint limits")
+        return found, False
+
+    def _solve_qp(
+        self, hessian: Vector, gradient: Vector, A: Vector, upper: Vector, lower: Vector
+    ) -> tuple[Vector, bool]:
+        """Minimises within bounds, the first of them of x, those after of A x."""
+        sense = self._senses[len(A) // 6].copy()
+        x, _, status, _ = daqp.solve(hessian, gradient, A, upper, lower, sense)
+        return np.asarray(x, dtype=np.float64), status >= 1
+
+    def _tasks(
+        self, context: Context, target: IkTarget, feet: list[int]
+    ) -> tuple[Vector, Vector]:
+        """Computes Jacobians and wanted velocities of CoM, waist and feet in turn.
+
+        Args:
+            context: of the plant.
+            target: what is to be tracked.
+            feet: 0 for the left, 1 for the right, in the order of their rows.
+
+        Returns:
+            J, (18, nv), and the velocities, (18,).
+        """
+        plant, gain = self._plant, self._params.gain
+        world, kv = plant.world_frame(), JacobianWrtVariable.kV
+        J, v = np.empty((18, plant.num_velocities())), np.empty(18)
+        J[:3] = plant.CalcJacobianCenterOfMassTranslationalVelocity(
             context, kv, world, world
         )
         p_WCom = plant.CalcCenterOfMassPositionInWorld(context)
-        origin: Vector = np.zeros(3)
-        J_waist = plant.CalcJacobianSpatialVelocity(
-            context, kv, self._pelvis.body_frame(), origin, world, world
+        v[:3] = target.com_velocity + gain * (target.com - p_WCom)
+        J[3:6] = plant.CalcJacobianSpatialVelocity(
+            context, kv, self._pelvis.body_frame(), _ORIGIN, world, world
         )[:3]
         R_WP = self._pelvis.EvalPoseInWorld(context).rotation()
-        v_com = target.com_velocity + gain * (target.com - p_WCom)
-        w_waist = spin_of(target.waist, target.waist_rate)
-        w_waist = w_waist + 0.5 * gain * rotation_error(target.waist, R_WP)
-        J_feet, v_feet = self._foot_tasks(context, target)
-        nv = len(self._posture_weight)
-        hessian = np.diag(self._posture_weight + params.damping)
-        gradient = np.zeros(nv)
-        sought = params.posture_gain * (self.posture[7:] - q[7:])
-        sought[self._swing - 6] += target.arms_rate + params.posture_gain * target.arms
-        gradient[6:] = -self._posture_weight[6:] * sought
-        for J, v, weight in (
-            (J_com, v_com, [params.com_weight] * 2 + [params.height_weight]),
-            (
-                J_waist,
-                w_waist,
-                [params.waist_weight] * 2 + [params.waist_yaw_weight],
-            ),
-        ):
-            weighted = J.T * np.array(weight)
-            hessian += weighted @ J
-            gradient -= weighted @ v
-        upper, lower = np.full(nv, 1e3), np.full(nv, -1e3)
-        upper[6:] = np.minimum(self._speed, gain * (self._upper - q[7:]))
-        lower[6:] = np.maximum(-self._speed, gain * (self._lower - q[7:]))
-        # A joint beyond a limit may not be asked to return faster than it can.
-        upper[6:] = np.maximum(upper[6:], -self._speed)
-        lower[6:] = np.minimum(lower[6:], upper[6:])
-        held = np.repeat(target.stance > 0.5, 6)
-        free = ~held
-        weighted = params.free_weight * J_feet[free].T
-        hessian += weighted @ J_feet[free]
-        gradient -= weighted @ v_feet[free]
-        v, solved = _solve_qp(
-            hessian, gradient, upper, lower, J_feet[held], v_feet[held]
-        )
-        if solved:
-            return v, True
-        weighted = 10.0 * params.com_weight * J_feet[held].T
-        hessian += weighted @ J_feet[held]
-        gradient -= weighted @ v_feet[held]
-        v, solved = _solve_qp(hessian, gradient, upper, lower, J_feet[:0], v_feet[:0])
-        if not solved:
-            raise RuntimeError("the IK's QP has no solution within the joint limits")
-        return v, False
-
-    def _foot_tasks(self, context: Context, target: IkTarget) -> tuple[Vector, Vector]:
-        """Jacobians of both soles, (12, nv), and the velocities wanted, (12,)."""
-        plant, gain = self._plant, self._params.gain
-        world = plant.world_frame()
-        jacobians, velocities = [], []
-        for body, pose, rate in zip(
-            self._feet, target.foot_poses, target.foot_rates, strict=True
-        ):
-            jacobians.append(
-                plant.CalcJacobianSpatialVelocity(
-                    context,
-                    JacobianWrtVariable.kV,
-                    body.body_frame(),
-                    self._p_BF,
-                    world,
-                    world,
-                )
+        error = rotation_error(target.waist, R_WP)
+        v[3:6] = spin_of(target.waist, target.waist_rate) + 0.5 * gain * error
+        for row, i in zip((6, 12), feet, strict=True):
+            body, pose, rate = self._feet[i], target.foot_poses[i], target.foot_rates[i]
+            J[row : row + 6] = plant.CalcJacobianSpatialVelocity(
+                context, kv, body.body_frame(), self._p_BF, world, world
             )
             X_WB = body.EvalPoseInWorld(context)
-            velocities += [
-                spin_of(pose[3:], rate[3:])
-                + gain * rotation_error(pose[3:], X_WB.rotation()),
-                rate[:3] + gain * (pose[:3] - X_WB.multiply(self._p_BF)),
-            ]
-        return np.vstack(jacobians), np.concatenate(velocities)
+            turn = rotation_error(pose[3:], X_WB.rotation())
+            v[row : row + 3] = spin_of(pose[3:], rate[3:]) + gain * turn
+            v[row + 3 : row + 6] = rate[:3] + gain * (
+                pose[:3] - X_WB.multiply(self._p_BF)
+            )
+        return J, v
 
 
 def spin_of(rpy: Vector, rate: Vector) -> Vector:
@@ -279,25 +296,3 @@ def solve_posture(
         v, _ = ik.solve(context, target)
         q = integrate(plant, context, v, period)
     return q
-
-
-def _solve_qp(
-    hessian: Vector,
-    gradient: Vector,
-    upper: Vector,
-    lower: Vector,
-    A: Vector,
-    b: Vector,
-) -> tuple[Vector, bool]:
-    """Minimises within bounds, with A x = b."""
-    sense = np.zeros(len(upper) + len(b), dtype=np.int32)
-    sense[len(upper) :] = 5  # equality, in DAQP's code
-    x, _, status, _ = daqp.solve(
-        hessian,
-        gradient,
-        np.ascontiguousarray(A),
-        np.concatenate([upper, b]),
-        np.concatenate([lower, b]),
-        sense,
-    )
-    return np.asarray(x, dtype=np.float64), status >= 1

@@ -2,11 +2,12 @@
 
     OMP_NUM_THREADS=1 python -m tests.benchmarks.closed_loop_cost --write
 
-Runs a closed loop, everything and the logs on, in turns with two plants whose joints
-are held: one as it was before self-collisions were simulated (2.5 ms, lagged), by which
-the others are measured, and the one of the loop. Only the time in which the robot steps
-counts. Prints a table; with --write it also goes to `closed_loop_cost.md` and
-`closed_loop_cost.json` beside this file.
+Runs a closed loop, everything and the logs on, in turns with two plants: one as it was
+before self-collisions were simulated (2.5 ms, lagged), its joints held, by which the
+others are measured; and the loop's own, which begins every turn in the loop's state and
+has its commands held. Only the time in which the robot steps counts. Prints a table;
+with --write it also goes to `closed_loop_cost.md` and `closed_loop_cost.json` beside
+this file.
 """
 
 import argparse
@@ -22,7 +23,7 @@ import numpy as np
 from pydrake.geometry import CollisionFilterDeclaration, GeometrySet
 from pydrake.multibody.plant import AddMultibodyPlant, MultibodyPlantConfig
 from pydrake.systems.analysis import Simulator
-from pydrake.systems.framework import DiagramBuilder
+from pydrake.systems.framework import Context, DiagramBuilder
 
 from footfall.diagrams.closed_loop.leaf_systems import leaf_systems
 from footfall.diagrams.closed_loop.parts import Parts
@@ -32,6 +33,7 @@ from footfall.diagrams.closed_loop.tasks import build_task
 from footfall.diagrams.scenario import Scenario, load_scenario
 from footfall.models.robots.robot_loader import add_robot
 from footfall.models.scenes.solids import add_solids
+from footfall.models.values.vector import Vector
 from footfall.systems.timing import stopwatch
 from tests.benchmarks.thinking_time import machine
 
@@ -91,29 +93,50 @@ class HeldPlant:
                 CollisionFilterDeclaration().ExcludeWithin(shapes)
             )
         plant.SetDefaultPositions(instance, setup.stand.positions)
+        self._plant, self._instance = plant, instance
         self._simulator = Simulator(builder.Build())
         context = plant.GetMyMutableContextFromRoot(
             self._simulator.get_mutable_context()
         )
         count = plant.num_actuators(instance)
-        held = setup.stand.positions[-count:]
         joints = [
             plant.get_joint_actuator(index).joint()
             for index in plant.GetJointActuatorIndices(instance)
         ]
         held = np.array([joint.GetOnePosition(context) for joint in joints])
         desired = np.concatenate([held, np.zeros(count)])
-        plant.get_desired_state_input_port(instance).FixValue(context, desired)
+        self._command(desired, np.zeros(count))
         self._simulator.Initialize()
         self._start = self._simulator.get_context().Clone()
         self._time = 0.0
+        self._restarts = not self_collision
+
+    def _command(self, desired: Vector, torque: Vector) -> None:
+        plant, instance = self._plant, self._instance
+        context = plant.GetMyContextFromRoot(self._simulator.get_context())
+        plant.get_desired_state_input_port(instance).FixValue(context, desired)
+        plant.get_actuation_input_port(instance).FixValue(context, torque)
+
+    def follow(self, task: TaskDiagram, root: Context) -> None:
+        """Takes state and commands of a closed loop over."""
+        state = task.plant.GetPositionsAndVelocities(
+            task.plant.GetMyContextFromRoot(root), task.robot_instance
+        )
+        context = self._plant.GetMyMutableContextFromRoot(
+            self._simulator.get_mutable_context()
+        )
+        self._plant.SetPositionsAndVelocities(context, self._instance, state)
+        self._command(
+            task.output("ik_tracker.joint_references", root),
+            task.output("torque_hold.y", root),
+        )
 
     def advance(self, duration: float) -> float:
         """Steps it and gives the processor time that it took, s.
 
-        It begins anew every second, before it can fall.
+        The one that is held begins anew every second, before it can fall.
         """
-        if self._time > 1.0:
+        if self._time > 1.0 and self._restarts:
             context = self._simulator.get_mutable_context()
             context.SetTimeStateAndParametersFrom(self._start)
             self._simulator.Initialize()
@@ -136,7 +159,7 @@ class Cost:
     reference: float = 0.0
     """Of the plant alone as it was."""
     plant: float = 0.0
-    """Of the loop's plant alone."""
+    """Of the loop's plant alone, in the loop's state."""
     control: float = 0.0
     watching: float = 0.0
     planning: float = 0.0
@@ -163,6 +186,7 @@ def measure(scenario: Scenario, limit: float) -> tuple[Cost, dict[str, float]]:
         simulator.Initialize()
         for turn in range(1, round(limit / SLICE) + 1):
             before = times(task)
+            plant.follow(task, context)
             begin, wall = process_time(), perf_counter()
             simulator.AdvanceTo(turn * SLICE)
             if turn % FLUSH == 0:

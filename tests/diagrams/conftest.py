@@ -2,13 +2,18 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 
 import numpy as np
 import pytest
 from pydrake.common.value import Value
 from pydrake.math import RigidTransform
-from pydrake.multibody.plant import AddMultibodyPlant, MultibodyPlantConfig
+from pydrake.multibody.plant import (
+    AddMultibodyPlant,
+    MultibodyPlant,
+    MultibodyPlantConfig,
+)
 from pydrake.systems.framework import Context, DiagramBuilder, LeafSystem
 from pydrake.systems.primitives import ConstantVectorSource
 
@@ -21,6 +26,7 @@ from footfall.diagrams.simulation import run_task
 from footfall.models.robots.contact_geometry import is_sole
 from footfall.models.robots.jvrc1 import JVRC1
 from footfall.models.robots.robot import JointGains
+from footfall.models.robots.robot_alone import robot_alone
 from footfall.models.robots.robot_loader import add_robot
 from footfall.models.scenes.scene import SceneParams
 from footfall.models.scenes.solids import add_solids
@@ -29,6 +35,7 @@ from footfall.models.values.feet import FEET
 from footfall.models.values.planned import TaskStatus
 from footfall.systems.sensing.contact_monitor import ContactMonitor
 from footfall.systems.sensing.foot_wrench_sensor import FootWrenchSensor
+from footfall.systems.sensing.kinematic_state import KinematicState
 from footfall.systems.sensing.robot_contacts import watched_geometry
 from footfall.systems.sensing.speed_monitor import SpeedMonitor
 from footfall.systems.timing import timed
@@ -104,6 +111,12 @@ def crossed_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("crossed") / "run"
     run_task(build_task(scenario), scenario, folder)
     return folder
+
+
+@cache
+def stiff_alone() -> MultibodyPlant:
+    """The robot without a scene."""
+    return robot_alone(STIFF)
 
 
 def standing_task(
@@ -202,8 +215,14 @@ def standing_task(
     builder.Connect(
         plant.get_contact_results_output_port(), sensor.GetInputPort("contact_results")
     )
+    kinematics = builder.AddNamedSystem(
+        "kinematic_state", KinematicState(stiff_alone(), STIFF)
+    )
     builder.Connect(
-        plant.get_body_poses_output_port(), sensor.GetInputPort("body_poses")
+        plant.get_state_output_port(robot), kinematics.GetInputPort("state")
+    )
+    builder.Connect(
+        kinematics.GetOutputPort("foot_poses"), sensor.GetInputPort("foot_poses")
     )
     signals.add_vector(
         "station.foot_wrenches",

@@ -28,7 +28,7 @@ def test_set_vector_writes_every_element() -> None:
     output = BasicVector(3)
     set_vector(output, np.array([1.0, 2.0, 3.0]))
     np.testing.assert_array_equal(output.value(), [1.0, 2.0, 3.0])
-    with pytest.raises(ValueError, match="broadcast"):
+    with pytest.raises(IndexError, match="does not match"):
         set_vector(output, np.zeros(2))
 
 

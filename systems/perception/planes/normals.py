@@ -38,7 +38,7 @@ def gravity_aligned_rotation(gravity: Vector) -> Vector:
     cosine = float(up[2])
     if cosine < -1.0 + 1e-12:
         return np.diag([1.0, -1.0, -1.0])
-    cross = VectorToSkewSymmetric(axis)
+    cross: Vector = np.asarray(VectorToSkewSymmetric(axis))
     return np.asarray(np.eye(3) + cross + cross @ cross / (1.0 + cosine))
 
 

@@ -31,9 +31,11 @@ def foot_references(plan: MotionPlan, row: int) -> Vector:
 
 def zmp_preview(plan: MotionPlan, row: int, horizon: int) -> Vector:
     """The cart's ZMP from a row on, (2 (horizon + 1),): first all x, then all y."""
-    rows = np.minimum(row + np.arange(horizon + 1), len(plan.zmp) - 1)
-    window: Vector = plan.cart_zmp[rows].T.ravel()
-    return window
+    window = np.empty((2, horizon + 1))
+    seen = plan.cart_zmp[row : row + horizon + 1].T
+    window[:, : seen.shape[1]] = seen
+    window[:, seen.shape[1] :] = plan.cart_zmp[-1][:, None]
+    return window.ravel()
 
 
 def waist_reference(plan: MotionPlan, row: int) -> Vector:

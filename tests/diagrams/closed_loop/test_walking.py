@@ -126,8 +126,9 @@ def test_balance_and_tracking_go_by_the_feet_that_have_landed(
     root = root.Clone()
     landing = task.system("landing_adaptor")
     context = landing.GetMyMutableContextFromRoot(root)
-    state = context.get_discrete_state(0).value()
-    context.SetDiscreteState(0, state - 0.25)
+    for group in range(context.num_discrete_state_groups()):
+        state = context.get_discrete_state(group).value()
+        context.SetDiscreteState(group, state - 0.25)
     adapted = eval_vector(landing.GetOutputPort(port), context)
     player = task.system("motion_player")
     planned = eval_vector(player.GetOutputPort(port), player.GetMyContextFromRoot(root))

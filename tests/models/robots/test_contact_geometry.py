@@ -27,7 +27,7 @@ from footfall.models.robots.contact_geometry import (
 from footfall.models.robots.jvrc1 import JVRC1
 from footfall.models.scenes.solids import Box, add_solids, upright_pose
 from footfall.models.values.feet import FEET
-from footfall.systems.sensing.foot_wrench_sensor import sum_wrenches
+from footfall.systems.sensing.foot_wrench_sensor import SoleFrame, sum_wrenches
 
 SOLE = JVRC1.sole
 GREY = (0.5, 0.5, 0.5, 1.0)
@@ -67,7 +67,8 @@ def feet_on(model: ContactModel, solid: Box) -> np.ndarray:
     context = plant.GetMyContextFromRoot(builder.Build().CreateDefaultContext())
     results = plant.get_contact_results_output_port().Eval(context)
     assert isinstance(results, ContactResults)
-    return sum_wrenches(results, foot_of(plant), poses)
+    frames = [SoleFrame(X.rotation().matrix(), X.translation()) for X in poses]
+    return sum_wrenches(results, foot_of(plant), frames)
 
 
 def foot_of(plant: MultibodyPlant) -> dict[int, int]:

@@ -22,13 +22,19 @@ from footfall.diagrams.closed_loop.robot_station import DRAKE_CONTACT_MODELS
 from footfall.models.robots.contact_geometry import CONTACT_MODELS, ContactModel
 from footfall.models.robots.jvrc1 import JVRC1
 from footfall.models.robots.robot import JointGains
+from footfall.models.robots.robot_alone import robot_alone
 from footfall.models.robots.robot_loader import add_robot
 from footfall.models.scenes.room import RoomParams
 from footfall.models.scenes.solids import add_solids
 from footfall.models.values.feet import FEET
 from footfall.models.values.vector import Vector
 from footfall.systems.ports import eval_vector
-from footfall.systems.sensing.foot_wrench_sensor import FootWrenchSensor, sum_wrenches
+from footfall.systems.sensing.foot_wrench_sensor import (
+    FootWrenchSensor,
+    SoleFrame,
+    sum_wrenches,
+)
+from footfall.systems.sensing.kinematic_state import KinematicState
 
 STIFF = replace(JVRC1, gains=dict.fromkeys(JVRC1.gains, JointGains(4000.0, 200.0, 0.1)))
 """Stands by its servos alone."""
@@ -91,8 +97,12 @@ def standing(request: pytest.FixtureRequest) -> Standing:
     builder.Connect(
         plant.get_contact_results_output_port(), sensor.GetInputPort("contact_results")
     )
+    kinematics = builder.AddSystem(KinematicState(robot_alone(STIFF), STIFF))
     builder.Connect(
-        plant.get_body_poses_output_port(), sensor.GetInputPort("body_poses")
+        plant.get_state_output_port(robot), kinematics.GetInputPort("state")
+    )
+    builder.Connect(
+        kinematics.GetOutputPort("foot_poses"), sensor.GetInputPort("foot_poses")
     )
     simulator = Simulator(builder.Build())
     simulator.AdvanceTo(4.0)
@@ -175,15 +185,16 @@ def test_wrenches_are_those_of_the_contacts(standing: Standing) -> None:
         for k, body in enumerate(bodies)
         for geometry in plant.GetCollisionGeometriesForBody(body)
     }
+    frames = [SoleFrame(X.rotation().matrix(), X.translation()) for X in standing.X_WF]
     np.testing.assert_allclose(
-        sum_wrenches(results, feet, standing.X_WF), standing.wrenches, atol=1e-12
+        sum_wrenches(results, feet, frames), standing.wrenches, atol=1e-12
     )
     other = {geometry: 1 - k for geometry, k in feet.items()}
-    swapped = sum_wrenches(results, other, standing.X_WF[::-1])
+    swapped = sum_wrenches(results, other, frames[::-1])
     np.testing.assert_allclose(swapped[::-1], standing.wrenches, atol=1e-12)
     # The floor feels the opposite.
     walls = plant.GetCollisionGeometriesForBody(plant.world_body())
     floor = {geometry.get_value(): 0 for geometry in walls}
-    world = sum_wrenches(results, floor, [RigidTransform()])[0]
+    world = sum_wrenches(results, floor, [SoleFrame(np.eye(3), np.zeros(3))])[0]
     force, moment = in_world(standing)
     np.testing.assert_allclose(world, -np.concatenate([force, moment]), atol=1e-9)

@@ -5,7 +5,7 @@ import pytest
 from pydrake.math import RigidTransform, RollPitchYaw
 
 from footfall.models.values.vector import Vector
-from footfall.systems.sensing.measured_zmp import measured_zmp
+from footfall.systems.sensing.measured_zmp import measured_zmp, zmp_now
 
 
 def matrices(poses: list[RigidTransform]) -> Vector:
@@ -65,3 +65,20 @@ def test_many_samples_are_measured_at_once() -> None:
     together = measured_zmp(X_WF, wrenches)
     alone = [measured_zmp(X, w) for X, w in zip(X_WF, wrenches, strict=True)]
     np.testing.assert_allclose(together, alone, atol=1e-12)
+
+
+def test_one_moment_in_plain_numbers_is_the_same() -> None:
+    """Of two feet anywhere, of one in the air, and of nothing felt."""
+    rng = np.random.default_rng(3)
+    for _ in range(20):
+        frames = [
+            (RollPitchYaw(rng.uniform(-1, 1, 3)).ToRotationMatrix().matrix(), p)
+            for p in rng.uniform(-1.0, 1.0, (2, 3))
+        ]
+        wrenches = rng.uniform(-1.0, 1.0, (2, 6)) * 300.0
+        wrenches[:, 2] = rng.uniform(0.0, 500.0, 2) * rng.integers(0, 2, 2)
+        poses = np.tile(np.eye(4), (2, 1, 1))
+        for pose, (R_WF, p_WF) in zip(poses, frames, strict=True):
+            pose[:3, :3], pose[:3, 3] = R_WF, p_WF
+        want = measured_zmp(poses, wrenches)
+        np.testing.assert_allclose(zmp_now(frames, wrenches), want, rtol=1e-9)
