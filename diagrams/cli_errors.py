@@ -59,6 +59,7 @@ def _bad_input_errors() -> tuple[type[Exception], ...]:
         ("footfall.diagrams.scenario", "ScenarioError"),
         ("footfall.diagrams.schema", "FieldError"),
         ("footfall.diagrams.signals", "RunError"),
+        ("footfall.diagrams.sweep.definition", "SweepError"),
         ("footfall.models.robots.robot_errors", "RobotError"),
         ("footfall.systems.perception.clouds.cloud_files", "CloudFileError"),
         ("footfall.systems.perception.room.environment_xml", "EnvironmentFileError"),

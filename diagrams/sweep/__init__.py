@@ -1,0 +1,1 @@
+"""Sweeps: a scenario many times, its fields drawn or listed, in one table."""

@@ -1,0 +1,157 @@
+"""Carrying a sweep out: what dies, what hangs, what is cut, and the table it gives."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from footfall.diagrams.sweep.definition import Sweep, SweepError
+from footfall.diagrams.sweep.figures import draw_sweep
+from footfall.diagrams.sweep.runner import command_of, run_sweep
+from footfall.diagrams.sweep.sampling import jobs_of
+from footfall.diagrams.sweep.table import (
+    Rate,
+    make_table,
+    rate_of,
+    report,
+    write_tables,
+)
+from footfall.diagrams.sweep_command import load_sweep, sweep_scenario
+
+STAND_IN = (sys.executable, str(Path(__file__).with_name("stand_in.py")))
+SWEEP = Sweep(
+    name="study",
+    scenario="stairs-exp1",
+    fields=(
+        ("scene.staircase.rise", (0.1, 0.2)),
+        ("scene.staircase.steps", (2, 5)),
+    ),
+    seeds=(0, 1, 2),
+)
+FAULTY = replace(
+    SWEEP,
+    fields=(("scene.staircase.steps", (2, 3, 4)),),
+    seeds=(0,),
+    timeout=3.0,
+)
+
+
+def tried(folder: Path) -> list[str]:
+    """Which runs were begun."""
+    return (folder / "tried").read_text().split()
+
+
+def test_every_run_has_a_row(tmp_path: Path) -> None:
+    """Success by group, and the command of each failure."""
+    told = []
+    ends = run_sweep(SWEEP, tmp_path / "s", 2, lambda *a: told.append(a), STAND_IN)
+    assert len(ends) == len(told) == 12
+    assert told[-1][1:] == (12, 12)
+    table = write_tables(SWEEP, tmp_path / "s")
+    assert list(table["run"]) == list(range(12))
+    assert rate_of(table) == Rate(6, 12)
+    text = report(SWEEP, table)
+    assert "Success: 6 of 12, 50 % (25 to 75 %)." in text
+    assert "| 0.1 | 6 of 6, 100 % (61 to 100 %) |" in text
+    failed = jobs_of(SWEEP)[-1]
+    assert f"`{command_of(SWEEP, failed)}`" in text
+    assert command_of(SWEEP, failed) == (
+        "footfall run stairs-exp1 --seed 2 --set scene.staircase.rise=0.2 "
+        "--set scene.staircase.steps=5"
+    )
+    back = load_sweep(tmp_path / "s")
+    pd.testing.assert_frame_equal(back.table, table, check_dtype=False)
+    assert list(back.costs["memory_mb"]) == [2.0] * 12
+    assert back.report == text
+    drawn = draw_sweep(SWEEP, table, tmp_path / "s")
+    assert {path.name for path in drawn} >= {"success-scene.staircase.rise.png"}
+    assert all(path.stat().st_size > 5000 for path in drawn)
+
+
+def test_what_dies_or_hangs_is_told_and_the_rest_goes_on(tmp_path: Path) -> None:
+    """It has no result, and is tried again."""
+    folder = tmp_path / "s"
+    ends = {e.job.number: e for e in run_sweep(FAULTY, folder, 3, None, STAND_IN)}
+    assert [ends[n].end for n in range(3)] == ["done", "died", "hung"]
+    assert ends[1].reason == "exit status 3: a bad day"
+    assert "within 3 s" in ends[2].reason
+    table = make_table(FAULTY, folder)
+    assert list(table["outcome"]) == ["completed", "no result", "no result"]
+    assert "Without a result: 2" in report(FAULTY, table)
+    run_sweep(FAULTY, folder, 3, None, STAND_IN)
+    assert sorted(tried(folder)) == ["00000", "00001", "00001", "00002", "00002"]
+
+
+def test_a_sweep_that_was_cut_gives_the_same_table(tmp_path: Path) -> None:
+    """Byte for byte, though some of its runs were made before; none is made twice."""
+    whole, cut = tmp_path / "whole", tmp_path / "cut"
+    run_sweep(SWEEP, whole, 2, None, STAND_IN)
+    run_sweep(SWEEP, cut, 2, None, STAND_IN)
+    for number in (3, 7, 8):
+        (cut / "results" / f"{number:05d}.json").unlink()
+    (cut / "results" / "00009.json").write_text('{"key": "half')
+    run_sweep(SWEEP, cut, 2, None, STAND_IN)
+    assert sorted(tried(cut)) == sorted(
+        [*(f"{n:05d}" for n in range(12)), "00003", "00007", "00008", "00009"]
+    )
+    for folder in (whole, cut):
+        write_tables(SWEEP, folder)
+    for name in ("table.parquet", "report.md"):
+        assert (whole / name).read_bytes() == (cut / name).read_bytes()
+
+
+def test_a_folder_of_another_sweep_is_refused(tmp_path: Path) -> None:
+    """And one that holds something else."""
+    run_sweep(SWEEP, tmp_path / "s", 2, None, STAND_IN)
+    with pytest.raises(SweepError, match="holds another sweep than study"):
+        run_sweep(replace(SWEEP, seeds=(5,)), tmp_path / "s", 2, None, STAND_IN)
+    (tmp_path / "other").mkdir()
+    (tmp_path / "other" / "mine.txt").write_text("mine")
+    with pytest.raises(SweepError, match="is not an empty folder"):
+        run_sweep(SWEEP, tmp_path / "other", 2, None, STAND_IN)
+
+
+def test_what_a_scenario_refuses_is_told_before_anything_runs(tmp_path: Path) -> None:
+    """By the sweep's file, the run and the field."""
+    file = tmp_path / "study.yaml"
+    file.write_text(
+        "scenario: stairs-exp1\nfields: {scene.staircase.rise: [0.1, -0.1]}"
+    )
+    with pytest.raises(SweepError, match=r"study\.yaml: run 1: .*rise: must be pos"):
+        sweep_scenario(file, tmp_path / "s", 1, print)
+    assert not (tmp_path / "s").exists()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="POSIX signals")
+def test_two_real_runs_killed_half_way_and_resumed(tmp_path: Path) -> None:
+    """By SIGKILL, its worker goes too; the same command goes on to the same table."""
+    file = tmp_path / "stand.yaml"
+    file.write_text(
+        "scenario: stand\nfields: {task.stand_time: [0.1, 0.2]}\nkeep: none\n"
+    )
+    folder = tmp_path / "s"
+    command = [sys.executable, "-m", "footfall", "sweep", str(file), "--jobs", "1"]
+    first = subprocess.Popen([*command, "--out", str(folder)], start_new_session=True)
+    results = folder / "results"
+    while not (results.exists() and list(results.iterdir())):
+        assert first.poll() is None
+        time.sleep(0.05)
+    os.kill(first.pid, signal.SIGKILL)
+    first.wait()
+    again = subprocess.run(
+        [*command, "--out", str(folder)], capture_output=True, text=True, check=True
+    )
+    assert "2/2  run 1  completed" in again.stdout
+    assert "0/2" not in again.stdout
+    assert "success: 2 of 2" in again.stdout
+    table = load_sweep(folder).table
+    assert list(table["outcome"]) == ["completed"] * 2
+    assert list(table["task.stand_time"]) == [0.1, 0.2]
+    assert not (folder / "runs" / "00000" / "signals").exists()
+    assert (folder / "runs" / "00000" / "scenario.yaml").exists()
