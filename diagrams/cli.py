@@ -161,6 +161,13 @@ def run(
             metavar="N", min=0, help="Seed of everything random (simulation.seed)."
         ),
     ] = None,
+    draw: Annotated[
+        bool,
+        typer.Option(
+            "--draw/--no-draw",
+            help="Draw replay, block diagram and figures; `plot` draws figures later.",
+        ),
+    ] = True,
     meshcat: Annotated[
         bool, typer.Option("--meshcat", help="Show the run live in a browser.")
     ] = False,
@@ -186,7 +193,7 @@ def run(
         chosen = _load(scenario, changes, seed)
         show = partial(_start_meshcat, meshcat_host) if meshcat else None
         with StopSignals() as stop, run_ends_in_one_line(stop):
-            summary = run_scenario(chosen, changes, out, build_task, stop, show)
+            summary = run_scenario(chosen, changes, out, build_task, stop, show, draw)
     raise typer.Exit(DONE if summary.outcome == "completed" else NOT_DONE)
 
 

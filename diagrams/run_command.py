@@ -30,6 +30,7 @@ def run_scenario(
     build: Callable[[Scenario, Meshcat | None], TaskDiagram],
     stop: StopSignals,
     start_meshcat: Callable[[], Meshcat] | None = None,
+    draw: bool = True,
 ) -> Summary:
     """Simulates a scenario, writes its folder, prints its summary, draws its pictures.
 
@@ -43,6 +44,7 @@ def run_scenario(
         build: makes the closed loop of a scenario.
         stop: notes the signals that come while the run is judged.
         start_meshcat: gives what shows it live; None where nothing does.
+        draw: whether its pictures are drawn.
 
     Raises:
         OutError: `out` cannot be used.
@@ -70,6 +72,8 @@ def run_scenario(
     try:
         if summary.outcome == "interrupted" or stop.received is not None:
             raise KeyboardInterrupt
+        if not draw:
+            return summary
         with _status(console, "drawing replay, block diagram and figures"):
             for complaint in illustrate(folder, task.diagram):
                 console.print(f"footfall: {complaint}", style="yellow", highlight=False)

@@ -123,16 +123,17 @@ class ContactMonitor(LeafSystem):
             self._keep_touches(forbidden, state)
 
     def _keep_largest(self, mean: Vector, state: DiscreteValues) -> None:
-        impact = state.value(self._impact).copy()
-        ratio = float(state.value(self._ratio)[0])
+        impact, (ratio,) = state.value(self._impact).tolist(), state.value(self._ratio)
+        before = (*impact, ratio)
         feet = mean[:6].tolist()
         for foot, (x, y, z) in enumerate((feet[:3], feet[3:])):
             if z > impact[foot]:
                 impact[foot] = z
             if z > LOADED * self._weight:
                 ratio = max(ratio, math.hypot(x, y) / z)
-        set_state(state, self._impact, impact)
-        set_state(state, self._ratio, np.array([ratio], dtype=np.float64))
+        if (*impact, ratio) != before:
+            set_state(state, self._impact, np.array(impact))
+            set_state(state, self._ratio, np.array([ratio]))
 
     def _keep_touches(
         self, contacts: list[RobotContact], state: DiscreteValues

@@ -169,3 +169,15 @@ def test_the_default_folder_tells_what_was_set(stand, tmp_path) -> None:
         "standing-seed2-simulation.max_time=0.3",
         "standing-seed2-simulation.max_time=0.3-2",
     ]
+
+
+def test_a_run_need_not_be_drawn(stand, monkeypatch) -> None:
+    """It is simulated, judged and printed all the same."""
+
+    def illustrate(folder, _: object) -> list[str]:
+        raise AssertionError("drawn")
+
+    monkeypatch.setattr("footfall.diagrams.run_command.illustrate", illustrate)
+    result = footfall_run(stand, "--no-draw")
+    assert result.exit_code == 0
+    assert "completed" in result.stdout
