@@ -80,6 +80,7 @@ def segment_file(
     segmentation = PlaneSegmentation(
         planes=found.planes,
         staircase=found.staircase,
+        flights=found.flights,
         times_ms=(read, *found.times_ms),
     )
     out.mkdir(parents=True, exist_ok=True)
@@ -119,6 +120,7 @@ def _document(cloud: Path, gravity: Vector, result: SegmentedFile) -> dict[str, 
         "gravity": to_json(np.asarray(gravity, dtype=np.float64)),
         "planes": to_json(segmentation.planes),
         "staircase": to_json(segmentation.staircase),
+        "flights": to_json(segmentation.flights),
         "doubts": list(result.doubts),
         "times_ms": {stage: round(ms, 3) for stage, ms in segmentation.times_ms},
     }

@@ -23,6 +23,24 @@ class LaserScan(Value):
 
 
 @dataclass(frozen=True, eq=False)
+class SeenEdges(Value):
+    """Which edges of a tread were seen as edges: a face at it, or what lies beyond it.
+
+    Any other edge is hidden or where the view ended; to it depth or width are lower
+    bounds.
+    """
+
+    front: bool
+    """Of the edge one steps over going up."""
+    back: bool
+    """Of the edge to the next tread; of the last one, to what lies behind it."""
+    right: bool
+    """Of the right end, looking up the stairs."""
+    left: bool
+    """Of the left end."""
+
+
+@dataclass(frozen=True, eq=False)
 class PlaneSegment(Value):
     """A bounded patch of plane that was seen."""
 
@@ -40,6 +58,8 @@ class PlaneSegment(Value):
     """Area of the supporting voxels, m^2."""
     support_count: int
     """Number of points that support the plane."""
+    edges: SeenEdges | None = None
+    """Of a tread, which of its edges were seen; None of any other plane."""
 
     def corners(self) -> Vector:
         """Computes the rectangle's corners in W, (4, 3), m, counter-clockwise."""
@@ -64,7 +84,10 @@ class PlaneSegmentation(Value):
     planes: tuple[PlaneSegment, ...] = ()
     """Every horizontal plane segment large enough for a foot, largest first."""
     staircase: Staircase = field(default_factory=Staircase)
-    """The cluster of planes of like size that makes up the staircase."""
+    """The nearest flight of stairs."""
+    flights: tuple[Staircase, ...] = ()
+    """Every straight flight that was seen, `staircase` first: behind a landing where
+    the way turns another one begins."""
     times_ms: tuple[tuple[str, float], ...] = ()
     """Wall time of each stage, (stage, ms), in order."""
     sensed_at: float | None = None

@@ -14,6 +14,11 @@ from numpy.typing import NDArray
 from footfall.models.robots.robot import Sole
 from footfall.models.values.perceived import PlaneSegmentation, Staircase
 from footfall.models.values.vector import Vector
+from footfall.systems.perception.planes.flights import find_flights, floor_seen
+from footfall.systems.perception.planes.levels import (
+    cloud_noise,
+    draw_levels_together,
+)
 from footfall.systems.perception.planes.normals import (
     estimate_normals,
     filter_slopes,
@@ -30,32 +35,35 @@ from footfall.systems.perception.planes.planes import (
     ransac_planes,
 )
 from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterParams
-from footfall.systems.perception.planes.segments import patch_segment, tread_segment
-from footfall.systems.perception.planes.stair_chain import (
-    floor_below,
-    is_landing,
-    join_parts,
-    landing_candidates,
-    largest_size_cluster,
-    longest_chain,
-    tread_candidates,
+from footfall.systems.perception.planes.segments import (
+    patch_segment,
+    shift_segmentation,
+    tread_segment,
+    winding_segments,
 )
+from footfall.systems.perception.planes.stair_chain import join_parts
 from footfall.systems.perception.planes.supervoxels import (
     Supervoxels,
     cluster_supervoxels,
     filter_small,
     merge_supervoxels,
 )
-from footfall.systems.perception.planes.treads import Tread, refine_treads
 from footfall.systems.perception.planes.voxels import (
     VoxelGrid,
     adjacent_voxels,
+    cloud_origin,
     filter_sparse,
     keep_pairs,
+    sparse_spacing,
     usable_points,
     voxelize,
 )
 
+MUCH_NOISE = 0.006
+"""From this noise across surfaces on level ones are drawn together first, m: a range
+noise of 13 mm."""
+MAX_REACH = 0.055
+"""Most that this looks up and down, m: less than half of the usual rise."""
 DOWN = np.array([0.0, 0.0, -1.0])
 """Gravity's direction in the gravity-aligned frame G that the stages work in."""
 
@@ -217,59 +225,13 @@ def bound_planes(
     )
 
 
-def find_treads(
-    patches: tuple[Patch, ...],
-    cloud: Vector,
-    params: PlaneSegmenterParams,
-    viewpoint: Vector | None,
-) -> tuple[list[int], float, list[Tread], int | None]:
-    """Finds the staircase among the patches.
-
-    Returns:
-        Indices of the treads' patches, lowest first; the staircase's yaw, rad; the
-        treads' rectangles in its frame; index of the floor's patch.
-    """
-    limits = params.stairs
-    level = [i for i, patch in enumerate(patches) if patch.extent[2] <= params.max_dz]
-    if params.staircase_from == "size_cluster":
-        extents = np.array([patches[i].extent for i in level]).reshape(-1, 3)
-        chosen = [
-            level[i] for i in largest_size_cluster(extents, limits.size_tolerance)
-        ]
-        chosen.sort(key=lambda i: float(patches[i].center[2]))
-    else:
-        candidates = tread_candidates(patches, limits, params.max_dz)
-        candidates += landing_candidates(patches, limits, params.max_dz)
-        candidates.sort(key=lambda number: float(patches[number].center[2]))
-        chosen = longest_chain(patches, candidates, limits)
-    if not chosen:
-        return [], 0.0, [], floor_below(patches, [], limits)
-    flight = [patches[i] for i in chosen]
-    if params.staircase_from == "size_cluster":
-        yaw, treads = refine_treads(flight, cloud, viewpoint)
-        return chosen, yaw, treads, floor_below(patches, chosen, limits)
-    landings = [is_landing(patch, limits) for patch in flight]
-    yaw, treads = refine_treads(flight, cloud, viewpoint, landings)
-    if len(treads) > 1 and not treads[-1].ends and not landings[-1]:
-        # Of a tread that the view cuts off the size is unknown. Of a landing it does
-        # not matter: what was seen of it is deep enough to stand on.
-        depths = [float(tread.high[0] - tread.low[0]) for tread in treads]
-        usual = float(np.median(np.array(depths[:-1])[np.logical_not(landings[:-1])]))
-        if abs(depths[-1] - usual) > limits.depth_tolerance * usual:
-            chosen, treads = chosen[:-1], treads[:-1]
-    if not treads[0].drops:
-        # Where nothing lower was seen before it, its end in the cloud is that of the
-        # view, not its edge: the floor, or the tread that the robot stands on.
-        return chosen[1:], yaw, treads[1:], chosen[0]
-    return chosen, yaw, treads, floor_below(patches, chosen, limits)
-
-
 def make_segmentation(
     patches: tuple[Patch, ...],
     cloud: Vector,
     params: PlaneSegmenterParams,
     viewpoint: Vector | None,
     R_GW: Vector,
+    spacing: float = 0.0,
 ) -> PlaneSegmentation:
     """Finds the staircase among the patches and turns all of them into W.
 
@@ -279,20 +241,31 @@ def make_segmentation(
         params: parameters.
         viewpoint: where they were seen from in G, (3,), m.
         R_GW: rotation from W into G, (3, 3).
+        spacing: of a sparse cloud's points, m; 0 where they are dense.
     """
-    chosen, yaw, treads, floor = find_treads(patches, cloud, params, viewpoint)
+    flights = find_flights(patches, cloud, params, viewpoint, spacing)
     segments = {i: patch_segment(patch, R_GW) for i, patch in enumerate(patches)}
-    for i, tread in zip(chosen, treads, strict=True):
-        segments[i] = tread_segment(tread, yaw, patches[i].area, R_GW)
-    if floor is not None and chosen:
-        segments[floor] = patch_segment(patches[floor], R_GW, yaw)
-    staircase = Staircase(
-        treads=tuple(segments[i] for i in chosen),
-        floor=None if floor is None else segments[floor],
+    for flight in flights:
+        if flight.winding:
+            segments.update(winding_segments(patches, flight.patches, R_GW))
+            continue
+        for i, tread in zip(flight.patches, flight.treads, strict=True):
+            segments[i] = tread_segment(tread, flight.yaw, patches[i].area, R_GW)
+    floor = flights[0].floor if flights else floor_seen(patches, viewpoint, params)
+    if floor is not None and flights and not flights[0].winding:
+        segments[floor] = patch_segment(patches[floor], R_GW, flights[0].yaw)
+    staircases = tuple(
+        Staircase(
+            treads=tuple(segments[i] for i in flight.patches),
+            floor=None if flight.floor is None else segments[flight.floor],
+        )
+        for flight in flights
     )
+    none = Staircase(floor=None if floor is None else segments[floor])
     return PlaneSegmentation(
         planes=tuple(sorted(segments.values(), key=lambda item: -item.area)),
-        staircase=staircase,
+        staircase=staircases[0] if staircases else none,
+        flights=staircases,
     )
 
 
@@ -372,8 +345,19 @@ def segment_planes(
         start = now
 
     R_GW = gravity_aligned_rotation(gravity)
-    cloud = usable_points(np.asarray(points, dtype=np.float64)) @ R_GW.T
-    eye = None if viewpoint is None else R_GW @ viewpoint
+    # A cloud far away is worked on near the origin, where numbers are fine.
+    origin = cloud_origin(points)
+    points = np.asarray(points, dtype=np.float64) - origin
+    cloud = usable_points(points) @ R_GW.T
+    eye = None if viewpoint is None else R_GW @ (viewpoint - origin)
+    spacing = sparse_spacing(cloud, params.voxel_size)
+    if spacing > 0.0:
+        params = replace(
+            params, voxel_size=min(1.1 * spacing, 0.5 * params.seed_resolution)
+        )
+    elif (noise := cloud_noise(cloud)) > MUCH_NOISE:
+        cloud = draw_levels_together(cloud, min(4.0 * noise, MAX_REACH))
+    lap("cloud")
     voxels = filter_level(cloud, params, eye)
     lap("filters")
     supervoxels, clusters = cluster_level(voxels, params, sole)
@@ -384,7 +368,9 @@ def segment_planes(
     if params.staircase_from == "chain":
         patches = join_parts(patches, params.stairs)
     lap("boundaries")
-    segmentation = make_segmentation(patches, cloud, params, eye, R_GW)
+    segmentation = make_segmentation(patches, cloud, params, eye, R_GW, spacing)
+    if np.any(origin):
+        segmentation = shift_segmentation(segmentation, origin)
     lap("staircase")
     segmentation = replace(segmentation, times_ms=tuple(times))
     return segmentation, Stages(

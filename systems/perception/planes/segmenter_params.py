@@ -53,7 +53,8 @@ class PlaneSegmenterParams(Parameters):
     plane_tolerance: float = number(0.015, "m", above=0.0)
     """Most that an inlier of RANSAC lies off its plane, m: three times the noise."""
     max_dz: float = number(0.03, "m", above=0.0)
-    """epsilon, largest vertical scale of a tread's segment, m (Sec. 4.3)."""
+    """epsilon, largest vertical scale of a tread's segment, m (Sec. 4.3): of
+    "size_cluster", and of a lone tread."""
     stairs: StairLimits = field(default_factory=StairLimits)
     """What passes for a staircase."""
     seed: int = number(0, least=0, most=MAX_SEED)

@@ -29,35 +29,60 @@ LANDING_GAP = 0.12
 of a nosing's overhang and of what a riser hides."""
 LANDING_OVERLAP = 0.6
 """Least part of the narrower one's width by which both adjoin."""
+ON_PLANE = 0.03
+"""Most that a splinter lies off its plane, m: less than the least rise."""
+UNDERSIDE = (0.01, 0.10)
+"""How far below its top the underside of an open tread may be, m."""
+WEDGE_GAP = 0.06
+"""Most that a winding tread and the next are apart in plan, m."""
+WEDGE_LIKE = 0.6
+"""Least area of the smaller of two winding treads, of the larger's."""
+LONGEST_RUN = 0.45
+"""Farthest from the front of a tread to that of the next where its back was not seen,
+m."""
+SHORTEST_RUN = 0.12
+"""Least of it, m."""
 LEVEL_SLOPE = 0.09
-"""Steepest tread that is joined from parts, rad."""
+"""Steepest tread that is joined from parts or winds, and most that a tread and the
+next lean differently, rad."""
 
 
 @dataclass(kw_only=True)
 class StairLimits(Parameters):
     """Limits of what passes for a staircase."""
 
-    min_depth: float = number(0.10, "m", above=0.0)
+    min_depth: float = number(0.08, "m", above=0.0)
     """Least depth of a tread, m: less than any sole needs, so that a tread that is
     seen in part still counts."""
-    max_depth: float = number(0.45, "m", above=0.0)
-    """Largest depth of a tread, m: building codes stop at 0.36; a landing has more."""
+    max_depth: float = number(0.60, "m", above=0.0)
+    """Largest depth of a tread, m: stairs in gardens have half a metre; a landing has
+    more."""
     max_landing: float = number(2.5, "m", above=0.0)
     """Longest side of a landing, m: what is larger is a floor."""
     min_width: float = number(0.30, "m", above=0.0)
     """Least width of a tread, m: two feet side by side."""
-    max_width: float = number(3.0, "m", above=0.0)
+    max_width: float = number(6.0, "m", above=0.0)
     """Largest width of a tread, m."""
-    min_rise: float = number(0.05, "m", above=0.0)
+    min_rise: float = number(0.04, "m", above=0.0)
     """Least rise from a tread to the next, m."""
     max_rise: float = number(0.50, "m", above=0.0)
     """Largest rise from a tread to the next, m. Twice what the paper climbs (0.24), so
     that a staircase too steep to climb is seen for what it is."""
+    max_lone_rise: float = number(0.42, "m", above=0.0)
+    """Largest rise of a tread that no other follows, m: what stands higher alone, as a
+    bench or a box, is no staircase."""
+    max_lean: float = number(0.16, "rad", above=0.0)
+    """Steepest tread, rad: what leans more is a ramp or a block."""
+    min_fill: float = number(0.4, least=0.0, most=1.0)
+    """Least part of a tread's rectangle that was seen as its plane: splinters of a
+    floor fill theirs less."""
     max_turn: float = number(0.35, "rad", least=0.0)
     """Most that the way to the next tread departs from a tread's own axis, rad."""
     depth_tolerance: float = number(0.06, least=0.0, most=1.0)
-    """How much the depth of a last tread whose end was not seen may depart from that
-    of the others, as a part of it: else the end is that of the view."""
+    """How much deeper than the others a last tread whose back was not seen may be, as
+    a part of their depth: what is deeper is a floor."""
+    min_part: float = number(0.5, above=0.0, most=1.0)
+    """Least depth of a last tread whose back was not seen, as a part of the others'."""
     max_gap: float = number(0.30, "m", least=0.0)
     """Largest gap between parts of one tread, m: the shadow of a leg."""
     size_tolerance: float = number(0.1, "m", above=0.0)
@@ -165,18 +190,47 @@ def _join(a: Patch, b: Patch, limits: StairLimits) -> Patch | None:
     return whole if fits and filled else None
 
 
-def tread_candidates(
-    patches: tuple[Patch, ...], limits: StairLimits, max_dz: float
-) -> list[int]:
-    """Selects the level patches with the size of a tread, lowest first."""
+def tread_candidates(patches: tuple[Patch, ...], limits: StairLimits) -> list[int]:
+    """Selects the patches with the size of a tread, lowest first.
+
+    The paper's bound on dz (Sec. 4.3) would lose wide treads where gravity is a degree
+    off; the slope of all patches is bounded already. Splinters of a larger plane and
+    undersides of treads are none.
+    """
     chosen = [
         number
         for number, patch in enumerate(patches)
-        if patch.extent[2] <= max_dz
-        and limits.min_depth <= patch.extent[0] <= limits.max_depth
+        if limits.min_depth <= patch.extent[0] <= limits.max_depth
         and limits.min_width <= patch.extent[1] <= limits.max_width
+        and patch.plane.normal[2] >= np.cos(limits.max_lean)
+        and patch.area >= limits.min_fill * patch.extent[0] * patch.extent[1]
+        and not _is_splinter(patch, patches, limits)
+        and not _is_covered(patch, patches)
     ]
     return sorted(chosen, key=lambda number: float(patches[number].center[2]))
+
+
+def _is_splinter(patch: Patch, patches: tuple[Patch, ...], limits: StairLimits) -> bool:
+    """Tells whether a patch lies in the plane of one too large for a tread."""
+    return any(
+        other.area > patch.area
+        and (other.extent[0] > limits.max_depth or other.extent[1] > limits.max_width)
+        and abs((patch.center - other.plane.point) @ other.plane.normal) <= ON_PLANE
+        for other in patches
+    )
+
+
+def _is_covered(patch: Patch, patches: tuple[Patch, ...]) -> bool:
+    """Tells whether a patch is the underside of the one right above it."""
+    for other in patches:
+        height = float(other.center[2] - patch.center[2])
+        if not UNDERSIDE[0] < height < UNDERSIDE[1]:
+            continue
+        own = shapely.Polygon(patch.outline[:, :2])
+        above = shapely.Polygon(other.outline[:, :2])
+        if own.intersection(above).area > 0.5 * own.area:
+            return True
+    return False
 
 
 def is_landing(patch: Patch, limits: StairLimits) -> bool:
@@ -184,14 +238,12 @@ def is_landing(patch: Patch, limits: StairLimits) -> bool:
     return bool(patch.extent[0] > limits.max_depth)
 
 
-def landing_candidates(
-    patches: tuple[Patch, ...], limits: StairLimits, max_dz: float
-) -> list[int]:
-    """Selects the level patches with the size of a landing, lowest first.
+def landing_candidates(patches: tuple[Patch, ...], limits: StairLimits) -> list[int]:
+    """Selects the patches with the size of a landing, lowest first.
 
-    The lowest level patch in view is none: it is the floor, or a part of it.
+    The lowest patch in view is none: it is the floor, or a part of it.
     """
-    level = [i for i, patch in enumerate(patches) if patch.extent[2] <= max_dz]
+    level = list(range(len(patches)))
     level.sort(key=lambda number: float(patches[number].center[2]))
     return [
         number
@@ -248,11 +300,13 @@ def _follows(lower: Patch, upper: Patch, limits: StairLimits) -> bool:
     rise = float(step[2])
     if not limits.min_rise <= rise <= limits.max_rise:
         return False
+    if lower.plane.normal @ upper.plane.normal < np.cos(LEVEL_SLOPE):
+        return False
     if is_landing(lower, limits) or is_landing(upper, limits):
         return _adjoins(lower, upper, limits)
+    if is_turned(lower, upper, limits):
+        return _winds(lower, upper)
     axes = (lower.axes[:2, 0], upper.axes[:2, 0])
-    if abs(float(axes[0] @ axes[1])) < np.cos(limits.max_turn):
-        return False
     wider = max(lower.extent[1], upper.extent[1])
     if min(lower.extent[1], upper.extent[1]) < 0.6 * wider:
         return False
@@ -261,7 +315,62 @@ def _follows(lower: Patch, upper: Patch, limits: StairLimits) -> bool:
     along = abs(float(step[:2] @ axis))
     across = abs(float(step[0] * axis[1] - step[1] * axis[0]))
     deepest = (lower.extent[0] + upper.extent[0]) / 2.0
-    return bool(0.5 * deepest <= along <= deepest + 0.15 and across <= 0.25 * wider)
+    if across > 0.25 * wider:
+        return False
+    if 0.5 * deepest <= along <= deepest + 0.15:
+        return True
+    # Where lines are missing the middles tell nothing; the front edges still do.
+    forward = axis if float(step[:2] @ axis) >= 0.0 else -axis
+    low, high = lower.outline[:, :2] @ forward, upper.outline[:, :2] @ forward
+    run = float(high.min() - low.min())
+    behind = float(high.min() - low.max()) >= -LANDING_GAP / 2.0
+    return bool(behind and SHORTEST_RUN <= run <= LONGEST_RUN)
+
+
+def split_at_turns(
+    patches: tuple[Patch, ...], chain: list[int], limits: StairLimits
+) -> list[list[int]]:
+    """Splits a chain of treads where its way turns at a landing.
+
+    Returns:
+        Straight flights, lowest first; a landing belongs to the one that leads to it.
+    """
+    flights: list[list[int]] = [[]]
+    before: Patch | None = None
+    for member in chain:
+        patch = patches[member]
+        if not is_landing(patch, limits):
+            turned = before is not None and is_turned(before, patch, limits)
+            if turned and is_landing(patches[flights[-1][-1]], limits):
+                flights.append([])
+            before = patch
+        flights[-1].append(member)
+    return flights
+
+
+def is_turned(a: Patch, b: Patch, limits: StairLimits) -> bool:
+    """Tells whether the short sides of two patches point different ways."""
+    cosine = abs(float(a.axes[:2, 0] @ b.axes[:2, 0]))
+    return bool(cosine < np.cos(limits.max_turn))
+
+
+def _winds(lower: Patch, upper: Patch) -> bool:
+    """Tests whether `upper` may be the wedge after `lower`, about a newel."""
+    if min(lower.plane.normal[2], upper.plane.normal[2]) < np.cos(LEVEL_SLOPE):
+        return False
+    below = shapely.Polygon(lower.outline[:, :2])
+    above = shapely.Polygon(upper.outline[:, :2])
+    if below.distance(above) > WEDGE_GAP:
+        return False
+    if below.intersection(above).area > 0.1 * min(below.area, above.area):
+        return False
+    smaller = min(below.area, above.area)
+    if smaller < WEDGE_LIKE * max(below.area, above.area):
+        return False
+    # A wedge's middle is not that of its rectangle.
+    step = np.subtract(above.centroid.coords[0], below.centroid.coords[0])
+    reach = abs(float(step @ lower.axes[:2, 0]))
+    return bool(reach >= 0.35 * lower.extent[0])
 
 
 def _adjoins(lower: Patch, upper: Patch, limits: StairLimits) -> bool:
@@ -290,6 +399,7 @@ def floor_below(
     """Finds the plane the staircase rises from: the largest within a rise below it.
 
     A robot on the stairs may see none there; then the largest of all lower planes.
+    Without a staircase it is the lowest of those half as large as the largest.
     """
     lowest = np.inf
     if treads:
@@ -307,4 +417,8 @@ def floor_below(
         for number in below
         if treads and float(patches[number].center[2]) >= reach
     ]
-    return max(adjacent or below, key=lambda number: patches[number].area)
+    largest = max(adjacent or below, key=lambda number: patches[number].area)
+    if treads:
+        return largest
+    large = [i for i in below if patches[i].area >= 0.5 * patches[largest].area]
+    return min(large, key=lambda number: float(patches[number].center[2]))

@@ -10,7 +10,12 @@ import numpy as np
 from pydrake.math import RigidTransform, RotationMatrix
 from scipy.spatial import ConvexHull
 
-from footfall.models.values.perceived import PlaneSegment, PlaneSegmentation, Staircase
+from footfall.models.values.perceived import (
+    PlaneSegment,
+    PlaneSegmentation,
+    SeenEdges,
+    Staircase,
+)
 from footfall.models.values.validation import Parameters, number
 from footfall.models.values.vector import Vector
 from footfall.systems.perception.planes.planes import plane_axes
@@ -33,6 +38,11 @@ class StaircaseMapParams(Parameters):
     depth_tolerance: float = number(0.3, above=0.0)
     """How much deeper than the deepest known tread a new one may be, as a part of it:
     what is deeper is a landing. One that is seen in part may well be less deep."""
+    partial_depth: float = number(0.06, least=0.0, most=1.0)
+    """How much less deep than the others a last tread whose back was not seen may be,
+    as a part of their depth: of a smaller part one waits to see the rest."""
+    deep_enough: float = number(0.30, "m", above=0.0)
+    """A part of a tread as deep as this is one to stand on, m: a sole and margins."""
     min_landing: float = number(0.45, "m", above=0.0)
     """Least depth of a landing, m."""
     max_landing: float = number(2.5, "m", above=0.0)
@@ -55,6 +65,7 @@ def merge_staircase(
         seen: the new scan, in W.
         params: parameters.
     """
+    seen = replace(seen, staircase=leave_partial(seen.staircase, params))
     if not known.treads:
         floor = known.floor or seen.staircase.floor
         return replace(seen.staircase, floor=floor)
@@ -80,6 +91,27 @@ def merge_staircase(
         below = _height(treads[0]) - _height(seen.staircase.floor)
         floor = seen.staircase.floor if below > params.height_tolerance else None
     return Staircase(treads=tuple(treads), floor=floor)
+
+
+def leave_partial(staircase: Staircase, params: StaircaseMapParams) -> Staircase:
+    """Leaves out a last tread that the view cuts off: how far it goes is not known yet.
+
+    Args:
+        staircase: what one scan saw.
+        params: when a part of a tread is enough.
+    """
+    if len(staircase.treads) < 2:
+        return staircase
+    *others, last = staircase.treads
+    if last.edges is None or last.edges.back:
+        return staircase
+    depths = [float(tread.size[0]) for tread in others]
+    treads = [depth for depth in depths if depth < params.min_landing]
+    usual = np.median(treads or depths)
+    whole = last.size[0] >= (1.0 - params.partial_depth) * usual
+    if whole or last.size[0] >= params.deep_enough:
+        return staircase
+    return replace(staircase, treads=staircase.treads[:-1])
 
 
 def _height(plane: PlaneSegment) -> float:
@@ -164,6 +196,19 @@ def _merge_treads(
         area=max(known.area, seen.area),
         # Not the sum: an early, far view must not outweigh a near one for good.
         support_count=max(known.support_count, seen.support_count),
+        edges=_merge_edges(known.edges, seen.edges),
+    )
+
+
+def _merge_edges(a: SeenEdges | None, b: SeenEdges | None) -> SeenEdges | None:
+    """Counts an edge as seen that was seen in either view."""
+    if a is None or b is None:
+        return a or b
+    return SeenEdges(
+        front=a.front or b.front,
+        back=a.back or b.back,
+        right=a.right or b.right,
+        left=a.left or b.left,
     )
 
 

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import ndimage
 
 from footfall.models.values.vector import Vector
@@ -32,6 +33,19 @@ SHADOW = 0.25
 """Widest shadow across a tread, m: of a leg."""
 MIN_FACE_POINTS = 25
 """Fewer points do not make a face."""
+CROSSING = 0.3
+"""Share of a cell's points above and below a plane, of those on it, from which a face
+runs through the plane there: a wall, a handrail, the side of the next step."""
+LONELY = 0.2
+"""Share of the usual number of points about a cell below which they are outliers."""
+NEAR = 0.4
+"""How far about its treads a flight is looked at, m."""
+UNDER = 0.8
+"""How much farther below them, m: to the floor under a table."""
+BEHIND = 2.0
+"""How far behind a last tread one looks for what its shadow leaves in view, m."""
+BEFORE = (0.04, 0.25)
+"""How far before a front edge one looks for what the tread rises from, m."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,6 +67,26 @@ class Tread:
     ends: bool
     """Whether a face was seen at its back edge or, of the last tread, what lies behind
     it."""
+    right: bool
+    """Whether something else was seen beyond its right end."""
+    left: bool
+    """Whether something else was seen beyond its left end."""
+    drop: float
+    """Height over what was seen before its front edge, m; NaN where nothing was."""
+    reach: float
+    """How far from its plane its faces are looked at, m."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Slab:
+    """The points near a tread's plane, without those of faces and outliers."""
+
+    points: Vector
+    """In G, (n, 3), m."""
+    thickness: float
+    """Most that they lie off the plane, m."""
+    reach: float
+    """How far from the plane faces are looked at, m."""
 
 
 def stair_rotation(yaw: float) -> Vector:
@@ -114,6 +148,7 @@ def refine_treads(
     cloud: Vector,
     viewpoint: Vector | None,
     landings: Sequence[bool] = (),
+    spacing: float = 0.0,
 ) -> tuple[float, list[Tread]]:
     """Fits the rectangles of a flight of treads.
 
@@ -122,22 +157,34 @@ def refine_treads(
         cloud: the cloud, (n, 3), m.
         viewpoint: where it was seen from, (3,), m.
         landings: as of `initial_yaw`.
+        spacing: of a sparse cloud's points, m; 0 where they are dense.
 
     Returns:
         Yaw of S in G, rad, and the treads in S (which has G's origin).
     """
     near = _near(patches, cloud)
     yaw = initial_yaw(patches, near, viewpoint, landings)
+    wide = landings or [False] * len(patches)
+    slabs = [
+        _slab(patch, near, _face_reach(patches, i), landing, spacing)
+        for i, (patch, landing) in enumerate(zip(patches, wide, strict=True))
+    ]
     treads: list[Tread] = []
     for _ in range(3):
         rotation = stair_rotation(yaw)
         local = near @ rotation
-        treads = [_bound(patch, local, rotation) for patch in patches]
+        treads = [
+            _bound(patch, slab, local, rotation, spacing)
+            for patch, slab in zip(patches, slabs, strict=True)
+        ]
         slope = _common_slope(treads, local)
         yaw = float(yaw - np.arctan(slope))
     rotation = stair_rotation(yaw)
     local = near @ rotation
-    treads = [_bound(patch, local, rotation) for patch in patches]
+    treads = [
+        _bound(patch, slab, local, rotation, spacing)
+        for patch, slab in zip(patches, slabs, strict=True)
+    ]
     last = treads[-1]
     if not last.ends and viewpoint is not None:
         seen = _is_seen_past(last, cloud @ rotation, viewpoint @ rotation)
@@ -167,34 +214,103 @@ def _is_seen_past(tread: Tread, cloud: Vector, eye: Vector) -> bool:
     return height > 0.0 and bool(np.count_nonzero(past) >= MIN_FACE_POINTS)
 
 
+def is_something_behind(tread: Tread, cloud: Vector) -> bool:
+    """Tests whether anything lower was seen behind a tread, (n, 3) points in S.
+
+    Without a viewpoint it hints that the tread's end is not that of the view; through
+    open risers one sees what lies behind as well.
+    """
+    behind = (cloud[:, 0] > tread.high[0] + 0.01) & (
+        cloud[:, 0] < tread.high[0] + BEHIND
+    )
+    behind &= (cloud[:, 1] > tread.low[1]) & (cloud[:, 1] < tread.high[1])
+    behind &= (cloud - tread.point) @ tread.normal < -SLAB
+    return int(np.count_nonzero(behind)) >= MIN_FACE_POINTS
+
+
 def _near(patches: list[Patch], cloud: Vector) -> Vector:
     outline = np.concatenate([patch.outline for patch in patches])
-    low, high = outline.min(axis=0) - 0.4, outline.max(axis=0) + 0.4
+    low, high = outline.min(axis=0) - NEAR, outline.max(axis=0) + NEAR
+    low[2] -= UNDER
     return cloud[np.all((cloud > low) & (cloud < high), axis=1)]
 
 
-def _bound(patch: Patch, local: Vector, rotation: Vector) -> Tread:
+def _face_reach(patches: list[Patch], number: int) -> float:
+    """Computes how far from a tread's plane its faces can be told from its neighbours.
+
+    Of low steps the next tread is nearer than `FACE`.
+    """
+    height = float(patches[number].center[2])
+    rises = [abs(float(patch.center[2]) - height) for patch in patches]
+    least = min((rise for rise in rises if rise > SLAB), default=np.inf)
+    return min(FACE, max(least - SLAB, 2.0 * SLAB))
+
+
+def _slab(
+    patch: Patch, near: Vector, reach: float, landing: bool, spacing: float
+) -> _Slab:
+    """Selects the points of a tread from the cloud near it, (n, 3), in G."""
+    point, normal = patch.plane.point, patch.plane.normal
+    off = (near - point) @ normal
+    noise = 1.4826 * float(np.median(np.abs((patch.points - point) @ normal)))
+    thickness = min(max(3.0 * noise, SLAB), 2.0 * SLAB)
+    reach = max(reach, thickness + 0.01)
+    about = np.abs(off) < reach
+    off, near = off[about], near[about]
+    size = max(CELL, 1.5 * spacing)
+    cells = np.floor(near[:, :2] / size).astype(np.int64)
+    origin = cells.min(axis=0, initial=0)
+    shape = cells.max(axis=0, initial=0) - origin + 1
+    key = (cells[:, 0] - origin[0]) * shape[1] + cells[:, 1] - origin[1]
+
+    def count(chosen: NDArray[np.bool]) -> Vector:
+        return np.bincount(key[chosen], minlength=int(np.prod(shape))).astype(float)
+
+    on = np.abs(off) <= thickness
+    number = count(on)
+    faces = np.minimum(count(off > thickness), count(off < -thickness))
+    number[faces >= np.maximum(CROSSING * number, 3.0)] = 0.0
+    about_cell = 9.0 * ndimage.uniform_filter(
+        number.reshape(shape), size=3, mode="constant"
+    )
+    usual = float(np.median(about_cell.ravel()[key[on]])) if on.any() else 0.0
+    # Far points of a landing are much farther apart than near ones.
+    least = (LONELY / 10.0 if landing else LONELY) * usual
+    kept = on & (number[key] > 0.0) & (about_cell.ravel()[key] >= least)
+    return _Slab(near[kept], thickness, reach)
+
+
+def _bound(
+    patch: Patch, flat: _Slab, local: Vector, rotation: Vector, spacing: float
+) -> Tread:
     """Fits the rectangle of a tread to the cloud in S, (n, 3)."""
     core = patch.points @ rotation
     point, normal = patch.plane.point @ rotation, patch.plane.normal @ rotation
     off = (local - point) @ normal
-    noise = 1.4826 * float(np.median(np.abs((core - point) @ normal)))
-    thickness = min(max(3.0 * noise, SLAB), 2.0 * SLAB)
-    slab = _hanging_together(local[np.abs(off) <= thickness], core)
+    thickness, reach = flat.thickness, flat.reach
+    slab = _hanging_together(flat.points @ rotation, core, max(CELL, 1.5 * spacing))
     x, y = slab[:, 0], slab[:, 1]
-    right, left = -_strip_end(x, -y), _strip_end(x, y)
-    front, back = -_strip_end(y, -x), _strip_end(y, x)
+    strip = max(BIN, 1.5 * spacing)
+    right, left = -_strip_end(x, -y, strip), _strip_end(x, y, strip)
+    front, back = -_strip_end(y, -x, strip), _strip_end(y, x, strip)
     inside = (local[:, 1] > right + BIN) & (local[:, 1] < left - BIN)
-    face = inside & (off < -thickness) & (off > -FACE)
+    face = inside & (off < -thickness) & (off > -reach)
     standing, found = _face(local[face, 0], front)
     # A nosing overhangs its riser: then the tread's own end counts.
     overhang = max(OVERHANG, 0.8 * thickness)
     front = standing if found and front > standing - overhang else front
-    riser = inside & (off > thickness) & (off < FACE)
+    riser = inside & (off > thickness) & (off < reach)
     standing, ends = _face(local[riser, 0], back)
     back = standing if ends else back
     before = inside & (off < -0.03) & (local[:, 0] < front + BIN)
     drops = np.count_nonzero(before & (local[:, 0] > front - 0.25)) >= MIN_FACE_POINTS
+    lower = before & (local[:, 0] < front - BEFORE[0])
+    lower &= local[:, 0] > front - BEFORE[1]
+    seen = np.count_nonzero(lower) >= MIN_FACE_POINTS
+    # Through open risers one sees what lies below the step before as well.
+    drop = -float(np.percentile(off[lower], 75.0)) if seen else np.nan
+    y_all = local[:, 1]
+    beside = (np.abs(off) > thickness) & (local[:, 0] > front) & (local[:, 0] < back)
     # The rim is mixed with points of the faces, which would tilt and lift the plane.
     rim = (x > front + 0.02) & (x < back - 0.02) & (y > right) & (y < left)
     if np.count_nonzero(rim) >= MIN_FACE_POINTS:
@@ -207,10 +323,25 @@ def _bound(patch: Patch, local: Vector, rotation: Vector) -> Tread:
         points=slab,
         drops=bool(drops),
         ends=bool(ends),
+        right=_is_seen_beyond(right - y_all, beside),
+        left=_is_seen_beyond(y_all - left, beside),
+        drop=drop,
+        reach=reach,
     )
 
 
-def _hanging_together(slab: Vector, core: Vector) -> Vector:
+def _is_seen_beyond(past: Vector, others: NDArray[np.bool]) -> bool:
+    """Tells whether points of other surfaces were seen right beyond an end.
+
+    Args:
+        past: how far each point lies past the end, (n,), m.
+        others: which points are not of the tread, (n,).
+    """
+    right_beyond = others & (past > -0.01) & (past < NEAR)
+    return int(np.count_nonzero(right_beyond)) >= MIN_FACE_POINTS
+
+
+def _hanging_together(slab: Vector, core: Vector, size: float) -> Vector:
     """Selects the points of a slab connected to the tread's core, in plan view.
 
     These are the pieces that hang together with the core, which may be in several where
@@ -218,10 +349,9 @@ def _hanging_together(slab: Vector, core: Vector) -> Vector:
     are too small for a plane of their own.
     """
     both = np.concatenate([slab, core])[:, :2]
-    cells = np.floor(both / CELL).astype(np.int64)
+    cells = np.floor(both / size).astype(np.int64)
     cells -= cells.min(axis=0) - 1
-    size = cells.max(axis=0) + 2
-    occupied = np.zeros(size, dtype=bool)
+    occupied = np.zeros(cells.max(axis=0) + 2, dtype=bool)
     occupied[cells[:, 0], cells[:, 1]] = True
     label, count = ndimage.label(occupied, np.ones((3, 3)))
     of_point = label[cells[:, 0], cells[:, 1]]
@@ -244,12 +374,12 @@ def _hanging_together(slab: Vector, core: Vector) -> Vector:
     return np.asarray(slab[own[of_slab]])
 
 
-def _strip_end(across: Vector, along: Vector) -> float:
+def _strip_end(across: Vector, along: Vector, width: float) -> float:
     """Finds where points end: the upper third of the ends of strips across, m.
 
     Strips that something hides end early, so that the median would be drawn in.
     """
-    strip = np.floor(across / BIN).astype(np.int64)
+    strip = np.floor(across / width).astype(np.int64)
     strip -= strip.min()
     ends = np.full(int(strip.max()) + 1, -np.inf)
     np.maximum.at(ends, strip, along)
@@ -273,7 +403,7 @@ def _common_slope(treads: list[Tread], local: Vector) -> float:
     for tread in treads:
         low, high = tread.low, tread.high
         off = (local - tread.point) @ tread.normal
-        face = (off < -SLAB) & (off > -FACE)
+        face = (off < -SLAB) & (off > -tread.reach)
         face &= np.abs(local[:, 0] - low[0]) < 0.05
         face &= (local[:, 1] > low[1]) & (local[:, 1] < high[1])
         if np.count_nonzero(face) >= MIN_FACE_POINTS:

@@ -7,11 +7,22 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from footfall.models.values.vector import Vector
 
 FARTHEST = 1e4
 """No sensor of ours sees farther, m; beyond it the keys of voxels would overflow."""
+
+
+FAR = 1000.0
+"""A cloud farther from the origin than this, and smaller, is moved near it, m."""
+SAMPLE = 2000
+"""Points whose place and neighbours are looked at; more would tell the same."""
+MAX_SPARSE = 200_000
+"""A larger cloud is taken for dense: to look would cost more than it tells."""
+MAX_SPACING = 0.045
+"""Points farther apart do not show a tread, m."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +50,41 @@ def usable_points(points: Vector) -> Vector:
     with np.errstate(invalid="ignore"):
         good = np.all(np.abs(points) < FARTHEST, axis=1)
     return points[good]
+
+
+def cloud_origin(points: Vector) -> Vector:
+    """Chooses where a cloud is worked on from, (3,), m: whole metres, or the origin.
+
+    Args:
+        points: (n, 3), m; those that are not finite do not count.
+    """
+    sample = points[:: max(1, len(points) // SAMPLE)]
+    sample = sample[np.all(np.isfinite(sample), axis=1)]
+    if not len(sample):
+        return np.zeros(3)
+    middle = np.median(sample, axis=0)
+    far = np.linalg.norm(middle) > FAR and np.ptp(sample, axis=0).max() < FAR
+    return np.round(middle) if far else np.zeros(3)
+
+
+def sparse_spacing(points: Vector, voxel_size: float) -> float:
+    """Measures how far apart the points of a sparse cloud are, m; 0 for a dense one.
+
+    Repeated points, as of an elevation grid's cells, count once.
+
+    Args:
+        points: finite, (n, 3), m.
+        voxel_size: v, m.
+    """
+    if not 2 <= len(points) <= MAX_SPARSE:
+        return 0.0
+    chosen = points[:: -(-len(points) // SAMPLE)]
+    distance = np.asarray(cKDTree(points).query(chosen, k=min(6, len(points)))[0])
+    distance[distance < 1e-6] = np.inf
+    nearest = distance.min(axis=1)
+    nearest = nearest[np.isfinite(nearest)]
+    spacing = float(np.median(nearest)) if len(nearest) else 0.0
+    return spacing if 0.75 * voxel_size < spacing <= MAX_SPACING else 0.0
 
 
 def voxelize(points: Vector, size: float) -> VoxelGrid:
