@@ -34,7 +34,7 @@ class MotionPlannerParams(Parameters):
     lead_out: float = number(0.9, "s", least=0.05, most=60.0)
     """Standing after the last step while the weight comes to the middle, s."""
     com_height: float = number(
-        0.85, "m", least=0.3, most=3.0, shared="parameters.com_height"
+        0.85, "m", least=0.3, most=1.5, shared="parameters.com_height"
     )
     """CoM above the ground at mid-stance, m. Higher stretches the knees, lower loads
     them: at 0.80 m level walking needs 100 Nm at the knee, at 0.85 m 60 Nm."""
