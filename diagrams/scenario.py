@@ -124,7 +124,7 @@ class ControllerParams(Parameters):
     friction: float = number(0.6, above=0.0, most=10.0)
     """mu of the pyramids that planned and commanded contact wrenches are kept in;
     below the ground's, so that the feet do not slide."""
-    com_height: float = number(0.85, "m", least=0.3, most=3.0)
+    com_height: float = number(0.85, "m", least=0.3, most=1.5)
     """CoM above the ground at mid-stance, and of the preview's cart, m. Higher
     stretches the knees, lower loads them: at 0.80 m level walking needs 100 Nm at the
     knee, at 0.85 m 60 Nm."""
