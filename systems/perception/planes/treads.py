@@ -257,10 +257,13 @@ def _slab(
     reach = max(reach, thickness + 0.01)
     about = np.abs(off) < reach
     off, near = off[about], near[about]
+    if not len(near):
+        return _Slab(near, thickness, reach)
     size = max(CELL, 1.5 * spacing)
     cells = np.floor(near[:, :2] / size).astype(np.int64)
-    origin = cells.min(axis=0, initial=0)
-    shape = cells.max(axis=0, initial=0) - origin + 1
+    # From the tread, not from the world's origin: the grid is no larger than it.
+    origin = cells.min(axis=0)
+    shape = cells.max(axis=0) - origin + 1
     key = (cells[:, 0] - origin[0]) * shape[1] + cells[:, 1] - origin[1]
 
     def count(chosen: NDArray[np.bool]) -> Vector:
