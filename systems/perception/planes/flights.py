@@ -11,6 +11,7 @@ import numpy as np
 import shapely  # type: ignore[import-untyped]
 
 from footfall.models.values.vector import Vector
+from footfall.systems.perception.planes.levels import Sampling
 from footfall.systems.perception.planes.planes import Patch
 from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterParams
 from footfall.systems.perception.planes.stair_chain import (
@@ -61,7 +62,7 @@ def find_flights(
     cloud: Vector,
     params: PlaneSegmenterParams,
     viewpoint: Vector | None,
-    spacing: float = 0.0,
+    sampling: Sampling,
 ) -> list[Flight]:
     """Finds the flights of stairs among the patches.
 
@@ -70,7 +71,7 @@ def find_flights(
         cloud: finite points in G, (n, 3), m.
         params: parameters.
         viewpoint: where they were seen from in G, (3,), m.
-        spacing: of a sparse cloud's points, m; 0 where they are dense.
+        sampling: of the cloud.
 
     Returns:
         The flights, those of several treads first; of those the nearest to the
@@ -79,7 +80,7 @@ def find_flights(
     """
     limits = params.stairs
     if params.staircase_from == "size_cluster":
-        return _flights_of_one_size(patches, cloud, params, viewpoint)
+        return _flights_of_one_size(patches, cloud, params, viewpoint, sampling)
     left = tread_candidates(patches, limits) + landing_candidates(patches, limits)
     left.sort(key=lambda number: float(patches[number].center[2]))
     flights: list[Flight] = []
@@ -93,7 +94,7 @@ def find_flights(
             chain = alone[:1]
         left = [number for number in left if number not in chain]
         for part in split_at_turns(patches, chain, limits):
-            flight = _settle(part, patches, cloud, params, viewpoint, spacing)
+            flight = _settle(part, patches, cloud, params, viewpoint, sampling)
             if flight is not None:
                 flights.append(flight)
     if viewpoint is not None:
@@ -137,6 +138,7 @@ def _flights_of_one_size(
     cloud: Vector,
     params: PlaneSegmenterParams,
     viewpoint: Vector | None,
+    sampling: Sampling,
 ) -> list[Flight]:
     """Finds the flight as the paper does (Sec. 4.3)."""
     limits = params.stairs
@@ -146,7 +148,9 @@ def _flights_of_one_size(
     chosen.sort(key=lambda i: float(patches[i].center[2]))
     if not chosen:
         return []
-    yaw, treads = refine_treads([patches[i] for i in chosen], cloud, viewpoint)
+    yaw, treads = refine_treads(
+        [patches[i] for i in chosen], cloud, viewpoint, sampling=sampling
+    )
     return [Flight(chosen, yaw, treads, floor_below(patches, chosen, limits))]
 
 
@@ -156,7 +160,7 @@ def _settle(
     cloud: Vector,
     params: PlaneSegmenterParams,
     viewpoint: Vector | None,
-    spacing: float,
+    sampling: Sampling,
 ) -> Flight | None:
     """Bounds the treads of a chain; None where it is no staircase."""
     limits = params.stairs
@@ -171,7 +175,7 @@ def _settle(
     if any(is_turned(a, b, limits) for a, b in pairwise(straight)):
         floor = floor_below(patches, chosen, limits)
         return Flight(chosen, 0.0, [], floor, winding=True)
-    yaw, treads = refine_treads(flight, cloud, viewpoint, landings, spacing)
+    yaw, treads = refine_treads(flight, cloud, viewpoint, landings, sampling)
     if len(treads) > 1 and not treads[-1].ends and not landings[-1]:
         # What the view cuts off is a part of a tread, or, where it is deeper than the
         # others, the floor above them. Of a landing it does not matter.

@@ -6,6 +6,8 @@ and Meer 2002, flat kernel) draws each level surface together and leaves walls a
 are, for along a wall points are spread evenly.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from footfall.models.values.vector import Vector
@@ -20,6 +22,18 @@ SLICE = 0.005
 """Height of the slices that points are counted in, m."""
 SHIFTS = 4
 """Shifts: the means stand still to a millimetre by then."""
+
+
+@dataclass(frozen=True)
+class Sampling:
+    """How a cloud samples its surfaces."""
+
+    spacing: float = 0.0
+    """Between the points of a sparse cloud, m; 0 where they are dense."""
+    noise: float = 0.0
+    """Standard deviation across surfaces, m, as the sensor gave it."""
+    drawn: bool = False
+    """Whether its level surfaces were drawn together, so that `noise` is gone."""
 
 
 def cloud_noise(points: Vector) -> float:

@@ -16,6 +16,7 @@ from footfall.models.values.perceived import PlaneSegmentation, Staircase
 from footfall.models.values.vector import Vector
 from footfall.systems.perception.planes.flights import find_flights, floor_seen
 from footfall.systems.perception.planes.levels import (
+    Sampling,
     cloud_noise,
     draw_levels_together,
 )
@@ -64,6 +65,8 @@ MUCH_NOISE = 0.006
 noise of 13 mm."""
 MAX_REACH = 0.055
 """Most that this looks up and down, m: less than half of the usual rise."""
+DENSE = Sampling()
+"""A cloud of which nothing is known."""
 DOWN = np.array([0.0, 0.0, -1.0])
 """Gravity's direction in the gravity-aligned frame G that the stages work in."""
 
@@ -231,7 +234,7 @@ def make_segmentation(
     params: PlaneSegmenterParams,
     viewpoint: Vector | None,
     R_GW: Vector,
-    spacing: float = 0.0,
+    sampling: Sampling = DENSE,
 ) -> PlaneSegmentation:
     """Finds the staircase among the patches and turns all of them into W.
 
@@ -241,16 +244,16 @@ def make_segmentation(
         params: parameters.
         viewpoint: where they were seen from in G, (3,), m.
         R_GW: rotation from W into G, (3, 3).
-        spacing: of a sparse cloud's points, m; 0 where they are dense.
+        sampling: of the cloud.
     """
-    flights = find_flights(patches, cloud, params, viewpoint, spacing)
+    flights = find_flights(patches, cloud, params, viewpoint, sampling)
     segments = {i: patch_segment(patch, R_GW) for i, patch in enumerate(patches)}
     for flight in flights:
         if flight.winding:
             segments.update(winding_segments(patches, flight.patches, R_GW))
             continue
         for i, tread in zip(flight.patches, flight.treads, strict=True):
-            segments[i] = tread_segment(tread, flight.yaw, patches[i].area, R_GW)
+            segments[i] = tread_segment(tread, flight.yaw, params.voxel_size, R_GW)
     floor = flights[0].floor if flights else floor_seen(patches, viewpoint, params)
     if floor is not None and flights and not flights[0].winding:
         segments[floor] = patch_segment(patches[floor], R_GW, flights[0].yaw)
@@ -355,7 +358,9 @@ def segment_planes(
         params = replace(
             params, voxel_size=min(1.1 * spacing, 0.5 * params.seed_resolution)
         )
-    elif (noise := cloud_noise(cloud)) > MUCH_NOISE:
+    noise = 0.0 if spacing > 0.0 else cloud_noise(cloud)
+    sampling = Sampling(spacing, noise, drawn=noise > MUCH_NOISE)
+    if sampling.drawn:
         cloud = draw_levels_together(cloud, min(4.0 * noise, MAX_REACH))
     lap("cloud")
     voxels = filter_level(cloud, params, eye)
@@ -368,7 +373,7 @@ def segment_planes(
     if params.staircase_from == "chain":
         patches = join_parts(patches, params.stairs)
     lap("boundaries")
-    segmentation = make_segmentation(patches, cloud, params, eye, R_GW, spacing)
+    segmentation = make_segmentation(patches, cloud, params, eye, R_GW, sampling)
     if np.any(origin):
         segmentation = shift_segmentation(segmentation, origin)
     lap("staircase")

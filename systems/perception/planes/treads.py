@@ -7,13 +7,14 @@ All of it in a frame G whose z points up.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
 from footfall.models.values.vector import Vector
+from footfall.systems.perception.planes.levels import Sampling
 from footfall.systems.perception.planes.planes import Patch, fit_plane
 
 SLAB = 0.015
@@ -23,6 +24,12 @@ BIN = 0.03
 """Width of the strips in which the end of a tread is looked for, m."""
 CELL = 0.04
 """Cell in which points of one tread hang together, m: far lines are this far apart."""
+PASSING = 0.2
+"""How far beyond a tread's outline, on its plane, one looks for rays that pass, m."""
+MAX_SPACING = 0.06
+"""Farthest from a tread's end to the next ray beyond that tells where it ends, m."""
+EDGE_SEEN = 0.2
+"""Part of an end's strips that are enough to tell where it is."""
 OVERHANG = 0.012
 """A tread that ends this far before the face below it overhangs it, m; less may be the
 noise of its own end."""
@@ -83,6 +90,8 @@ class _Slab:
 
     points: Vector
     """In G, (n, 3), m."""
+    noise: float
+    """Their standard deviation off the plane, m."""
     thickness: float
     """Most that they lie off the plane, m."""
     reach: float
@@ -148,7 +157,7 @@ def refine_treads(
     cloud: Vector,
     viewpoint: Vector | None,
     landings: Sequence[bool] = (),
-    spacing: float = 0.0,
+    sampling: Sampling | None = None,
 ) -> tuple[float, list[Tread]]:
     """Fits the rectangles of a flight of treads.
 
@@ -157,61 +166,63 @@ def refine_treads(
         cloud: the cloud, (n, 3), m.
         viewpoint: where it was seen from, (3,), m.
         landings: as of `initial_yaw`.
-        spacing: of a sparse cloud's points, m; 0 where they are dense.
+        sampling: of the cloud; None where nothing is known of it.
 
     Returns:
         Yaw of S in G, rad, and the treads in S (which has G's origin).
     """
+    sampling = sampling or Sampling()
     near = _near(patches, cloud)
     yaw = initial_yaw(patches, near, viewpoint, landings)
     wide = landings or [False] * len(patches)
     slabs = [
-        _slab(patch, near, _face_reach(patches, i), landing, spacing)
+        _slab(patch, near, _face_reach(patches, i), landing, sampling)
         for i, (patch, landing) in enumerate(zip(patches, wide, strict=True))
     ]
-    treads: list[Tread] = []
-    for _ in range(3):
+    passing = _passing(patches, cloud, viewpoint)
+
+    def bound(yaw: float) -> tuple[list[Tread], Vector]:
         rotation = stair_rotation(yaw)
         local = near @ rotation
+        eye = None if viewpoint is None else viewpoint @ rotation
         treads = [
-            _bound(patch, slab, local, rotation, spacing)
-            for patch, slab in zip(patches, slabs, strict=True)
+            _bound(patch, slab, local, others @ rotation, rotation, sampling, eye)
+            for patch, slab, others in zip(patches, slabs, passing, strict=True)
         ]
-        slope = _common_slope(treads, local)
-        yaw = float(yaw - np.arctan(slope))
-    rotation = stair_rotation(yaw)
-    local = near @ rotation
-    treads = [
-        _bound(patch, slab, local, rotation, spacing)
-        for patch, slab in zip(patches, slabs, strict=True)
-    ]
-    last = treads[-1]
-    if not last.ends and viewpoint is not None:
-        seen = _is_seen_past(last, cloud @ rotation, viewpoint @ rotation)
-        treads[-1] = replace(last, ends=seen)
-    return yaw, treads
+        return treads, local
+
+    for _ in range(3):
+        yaw = float(yaw - np.arctan(_common_slope(*bound(yaw))))
+    return yaw, bound(yaw)[0]
 
 
-def _is_seen_past(tread: Tread, cloud: Vector, eye: Vector) -> bool:
-    """Tests whether the view goes on over a tread's back edge, so that it is its own.
+def _passing(
+    patches: list[Patch], cloud: Vector, viewpoint: Vector | None
+) -> list[Vector]:
+    """Selects the points of the cloud whose rays pass by each tread, lower than it.
 
     Args:
-        tread: the tread.
-        cloud: the cloud in S, (n, 3), m.
-        eye: viewpoint in S, (3,), m.
+        patches: the treads.
+        cloud: the cloud, (n, 3), m.
+        viewpoint: where it was seen from, (3,), m.
     """
-    off = (cloud - tread.point) @ tread.normal
-    height = float((eye - tread.point) @ tread.normal)
-    below = cloud[off < -SLAB]
-    # Where the ray to the point pierces the tread's plane; under an open tread one
-    # sees too, but through the plane before it.
-    part = height / (height - off[off < -SLAB])
-    through = eye[:2] + part[:, None] * (below[:, :2] - eye[:2])
-    past = (through[:, 0] > tread.high[0] + 0.01) & (
-        through[:, 0] < tread.high[0] + 1.0
-    )
-    past &= (through[:, 1] > tread.low[1]) & (through[:, 1] < tread.high[1])
-    return height > 0.0 and bool(np.count_nonzero(past) >= MIN_FACE_POINTS)
+    if viewpoint is None:
+        return [np.zeros((0, 3))] * len(patches)
+    cloud = cloud[cloud[:, 2] < viewpoint[2] - PASSING]
+    slant = (cloud[:, :2] - viewpoint[:2]) / (viewpoint[2] - cloud[:, 2])[:, None]
+    chosen = []
+    for patch in patches:
+        height = viewpoint[2] - patch.outline[:, 2]
+        if height.min() <= PASSING:
+            chosen.append(np.zeros((0, 3)))
+            continue
+        rim = (patch.outline[:, :2] - viewpoint[:2]) / height[:, None]
+        margin = PASSING / height.min()
+        low, high = rim.min(axis=0) - margin, rim.max(axis=0) + margin
+        near = np.all((slant > low) & (slant < high), axis=1)
+        off = (cloud[near] - patch.plane.point) @ patch.plane.normal
+        chosen.append(cloud[near][off < -SLAB])
+    return chosen
 
 
 def is_something_behind(tread: Tread, cloud: Vector) -> bool:
@@ -247,7 +258,7 @@ def _face_reach(patches: list[Patch], number: int) -> float:
 
 
 def _slab(
-    patch: Patch, near: Vector, reach: float, landing: bool, spacing: float
+    patch: Patch, near: Vector, reach: float, landing: bool, sampling: Sampling
 ) -> _Slab:
     """Selects the points of a tread from the cloud near it, (n, 3), in G."""
     point, normal = patch.plane.point, patch.plane.normal
@@ -258,8 +269,8 @@ def _slab(
     about = np.abs(off) < reach
     off, near = off[about], near[about]
     if not len(near):
-        return _Slab(near, thickness, reach)
-    size = max(CELL, 1.5 * spacing)
+        return _Slab(near, noise, thickness, reach)
+    size = max(CELL, 1.5 * sampling.spacing)
     cells = np.floor(near[:, :2] / size).astype(np.int64)
     # From the tread, not from the world's origin: the grid is no larger than it.
     origin = cells.min(axis=0)
@@ -280,31 +291,62 @@ def _slab(
     # Far points of a landing are much farther apart than near ones.
     least = (LONELY / 10.0 if landing else LONELY) * usual
     kept = on & (number[key] > 0.0) & (about_cell.ravel()[key] >= least)
-    return _Slab(near[kept], thickness, reach)
+    return _Slab(near[kept], noise, thickness, reach)
 
 
 def _bound(
-    patch: Patch, flat: _Slab, local: Vector, rotation: Vector, spacing: float
+    patch: Patch,
+    flat: _Slab,
+    local: Vector,
+    passing: Vector,
+    rotation: Vector,
+    sampling: Sampling,
+    eye: Vector | None,
 ) -> Tread:
-    """Fits the rectangle of a tread to the cloud in S, (n, 3)."""
+    """Fits the rectangle of a tread.
+
+    Args:
+        patch: the tread, in G.
+        flat: its points, in G.
+        local: the cloud about the flight in S, (n, 3), m.
+        passing: points in S whose rays pass by the tread, (k, 3), m.
+        rotation: R_GS, (3, 3).
+        sampling: of the cloud.
+        eye: viewpoint in S, (3,), m.
+    """
     core = patch.points @ rotation
     point, normal = patch.plane.point @ rotation, patch.plane.normal @ rotation
     off = (local - point) @ normal
     thickness, reach = flat.thickness, flat.reach
-    slab = _hanging_together(flat.points @ rotation, core, max(CELL, 1.5 * spacing))
+    slab = _hanging_together(
+        flat.points @ rotation, core, max(CELL, 1.5 * sampling.spacing)
+    )
     x, y = slab[:, 0], slab[:, 1]
-    strip = max(BIN, 1.5 * spacing)
-    right, left = -_strip_end(x, -y, strip), _strip_end(x, y, strip)
-    front, back = -_strip_end(y, -x, strip), _strip_end(y, x, strip)
+    strip = max(BIN, 1.5 * sampling.spacing)
+    on, past, slant = slab[:, :2], np.zeros((0, 2)), 1.0
+    if eye is not None:
+        run, height = abs(float(np.median(x) - eye[0])), float(eye[2] - point[2])
+        slant = run / max(abs(height), 0.1)
+        on = _pierced(slab, eye, point, normal)
+        past = _pierced(passing, eye, point, normal)
+    # A face below would draw the front towards the eye by the slab's thickness. Levels
+    # that were drawn together are thin, and at their fronts drawn down.
+    lowest = -0.3 * thickness if sampling.drawn else -0.5 * flat.noise
+    upper = (slab - point) @ normal >= lowest
+    right = -_strip_end(on * [1.0, -1.0], past * [1.0, -1.0], strip)[0]
+    left = _strip_end(on, past, strip)[0]
+    on, past = on[:, ::-1], past[:, ::-1]
+    front = -_strip_end(on[upper] * [1.0, -1.0], past * [1.0, -1.0], strip)[0]
+    back, ends = _strip_end(on, past, strip)
     inside = (local[:, 1] > right + BIN) & (local[:, 1] < left - BIN)
     face = inside & (off < -thickness) & (off > -reach)
     standing, found = _face(local[face, 0], front)
     # A nosing overhangs its riser: then the tread's own end counts.
-    overhang = max(OVERHANG, 0.8 * thickness)
+    overhang = OVERHANG + 2.0 * slant * max(flat.noise, sampling.noise)
     front = standing if found and front > standing - overhang else front
     riser = inside & (off > thickness) & (off < reach)
-    standing, ends = _face(local[riser, 0], back)
-    back = standing if ends else back
+    standing, found = _face(local[riser, 0], back)
+    back, ends = (standing, True) if found else (back, ends)
     before = inside & (off < -0.03) & (local[:, 0] < front + BIN)
     drops = np.count_nonzero(before & (local[:, 0] > front - 0.25)) >= MIN_FACE_POINTS
     lower = before & (local[:, 0] < front - BEFORE[0])
@@ -377,17 +419,60 @@ def _hanging_together(slab: Vector, core: Vector, size: float) -> Vector:
     return np.asarray(slab[own[of_slab]])
 
 
-def _strip_end(across: Vector, along: Vector, width: float) -> float:
-    """Finds where points end: the upper third of the ends of strips across, m.
+def _pierced(points: Vector, eye: Vector, point: Vector, normal: Vector) -> Vector:
+    """Finds where the rays to points pierce a plane, (k, 2), m, of those that do.
 
-    Strips that something hides end early, so that the median would be drawn in.
+    Noise of ranges moves no point of these.
+
+    Args:
+        points: (n, 3), m.
+        eye: where they were seen from, (3,), m.
+        point: a point of the plane, (3,), m.
+        normal: its unit normal, (3,).
     """
-    strip = np.floor(across / width).astype(np.int64)
-    strip -= strip.min()
+    height = float((eye - point) @ normal)
+    drop = height - (points - point) @ normal
+    if height <= 0.0:
+        return points[:, :2]
+    good = drop > 0.1 * height
+    part = height / drop[good]
+    return np.asarray(eye[:2] + part[:, None] * (points[good, :2] - eye[:2]))
+
+
+def _strip_end(on: Vector, past: Vector, width: float) -> tuple[float, bool]:
+    """Finds where points end, by strips across, m.
+
+    Where rays pass right beyond, the end is half way to them. Without a viewpoint it
+    is the upper third: strips that something hides end early and draw the median in.
+
+    Args:
+        on: place across and along of the points, (n, 2), m.
+        past: the same of where rays pass by, (k, 2), m.
+        width: of a strip, m.
+
+    Returns:
+        The end, m, and whether rays were seen to pass it.
+    """
+    low = float(np.floor(on[:, 0].min() / width))
+    strip = np.floor(on[:, 0] / width).astype(np.int64) - int(low)
     ends = np.full(int(strip.max()) + 1, -np.inf)
-    np.maximum.at(ends, strip, along)
-    ends = np.sort(ends[np.isfinite(ends)])
-    return float(np.quantile(ends, 0.6))
+    np.maximum.at(ends, strip, on[:, 1])
+    beyond = np.floor(past[:, 0] / width).astype(np.int64) - int(low)
+    inside = (beyond >= 0) & (beyond < len(ends))
+    beyond, along = beyond[inside], past[inside, 1]
+    ahead = along > ends[beyond]
+    first = np.full(len(ends), np.inf)
+    np.minimum.at(first, beyond[ahead], along[ahead])
+    used = np.isfinite(ends)
+    ends, first = ends[used], first[used]
+    seen = first - ends < PASSING
+    if np.count_nonzero(seen) >= max(2.0, EDGE_SEEN * len(ends)):
+        ends, first = ends[seen], first[seen]
+        between = np.where(first - ends < MAX_SPACING, (ends + first) / 2.0, ends)
+        return float(np.median(between)), True
+    # Where the sweep ends askew, what is in view ends at the middle of its strips.
+    askew = len(past) and np.ptp(np.quantile(ends, [0.1, 0.9])) > width
+    return float(np.quantile(ends, 0.5 if askew else 0.6)), False
 
 
 def _face(x: Vector, edge: float) -> tuple[float, bool]:

@@ -16,6 +16,7 @@ from footfall.models.values.perceived import PlaneSegmentation
 from footfall.models.values.vector import Vector
 from footfall.systems.perception.clouds.cloud_files import read_cloud
 from footfall.systems.perception.planes.flights import find_flights
+from footfall.systems.perception.planes.levels import Sampling
 from footfall.systems.perception.planes.plane_segmentation import (
     LevelVoxels,
     bound_planes,
@@ -237,7 +238,8 @@ def test_order_of_the_paper(scan: Scan, stair_scene: Any) -> None:
     scene = stair_scene(width=0.8)
     eye = scene.sensor()
     cloud = scan(scene, eye, noise=0.002)
-    near = np.all((cloud > [-0.5, -0.5, -0.1]) & (cloud < [1.0, 0.5, 1.0]), axis=1)
+    # With what is seen past the last tread, which tells where it ends.
+    near = np.all((cloud > [-0.5, -0.5, -0.1]) & (cloud < [2.0, 0.5, 1.0]), axis=1)
     params = PlaneSegmenterParams(
         order="normals_first",
         planes_from="all",
@@ -354,11 +356,11 @@ def test_published_rectangles_from_published_voxels(data: Path) -> None:
     patches = bound_planes(
         fit_planes(level, clusters, params, SOLE), level, cloud, params
     )
-    (flight,) = find_flights(patches, cloud, params, None)
+    (flight,) = find_flights(patches, cloud, params, None, Sampling())
     yaw, treads = flight.yaw, flight.treads
     assert len(treads) == 3
     for tread, rectangle in zip(treads, rectangles, strict=True):
-        corners = tread_segment(tread, yaw, 0.0, np.eye(3)).corners()
+        corners = tread_segment(tread, yaw, params.voxel_size, np.eye(3)).corners()
         # Front right, back right, back left, front left.
         wanted = rectangle[[0, 3, 2, 1]]
         error = corners - wanted

@@ -58,7 +58,8 @@ def test_faces_tell_where_sparse_rows_end(yaw: float) -> None:
 def test_nosing_reaches_before_its_riser() -> None:
     """A tread that overhangs the face below by 3 cm begins at its own end."""
     rows = top(np.arange(-0.03, 0.2701, 0.01))
-    cloud = np.concatenate([rows, face(0.0, 0.0, HEIGHT - 0.02)])
+    # Of the face it hides the part down to 0.16 m.
+    cloud = np.concatenate([rows, grid(np.zeros(1), Y, np.arange(0.0, 0.16, 0.002))])
     _, (tread,) = refine_treads([patch(rows)], cloud, np.array([-1.0, 0.0, 1.5]))
     assert tread.low[0] == pytest.approx(-0.03, abs=0.002)
 
