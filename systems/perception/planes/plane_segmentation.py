@@ -1,7 +1,8 @@
 """Plane segments and the staircase of a cloud, stage by stage.
 
 Stair paper (Zhang, Caron, Nakamura 2016), Sec. 4 and Table 1. Every stage is a pure
-function whose result can be looked at; `segment_planes` calls them in turn.
+function whose result can be looked at; `segment_planes` calls them in turn. Planes are
+found in either of two ways: by the paper's supervoxels or by surfaces of columns.
 """
 
 from collections.abc import Sequence
@@ -17,23 +18,17 @@ from footfall.models.values.vector import Vector
 from footfall.systems.perception.planes.flights import find_flights, floor_seen
 from footfall.systems.perception.planes.levels import (
     Sampling,
-    cloud_noise,
     draw_levels_together,
 )
 from footfall.systems.perception.planes.normals import (
-    estimate_normals,
     filter_slopes,
     gravity_aligned_rotation,
-    orient_normals,
 )
 from footfall.systems.perception.planes.planes import (
     FittedPlane,
     Patch,
-    assign_support,
     bound_patch,
     fit_plane,
-    make_patches,
-    ransac_planes,
 )
 from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterParams
 from footfall.systems.perception.planes.segments import (
@@ -43,50 +38,37 @@ from footfall.systems.perception.planes.segments import (
     winding_segments,
 )
 from footfall.systems.perception.planes.stair_chain import join_parts
-from footfall.systems.perception.planes.supervoxels import (
-    Supervoxels,
-    cluster_supervoxels,
-    filter_small,
-    merge_supervoxels,
+from footfall.systems.perception.planes.supervoxel_planes import (
+    DOWN,
+    LevelVoxels,
+    bound_planes,
+    cluster_level,
+    filter_level,
+    fit_planes,
+)
+from footfall.systems.perception.planes.supervoxels import Supervoxels
+from footfall.systems.perception.planes.surfaces import (
+    Surfaces,
+    bound_surfaces,
+    cluster_surfaces,
+    cut_columns,
+    fit_surfaces,
+    level_noise,
 )
 from footfall.systems.perception.planes.voxels import (
-    VoxelGrid,
-    adjacent_voxels,
     cloud_origin,
-    filter_sparse,
-    keep_pairs,
     sparse_spacing,
     usable_points,
     voxelize,
 )
 
-MUCH_NOISE = 0.006
-"""From this noise across surfaces on level ones are drawn together first, m: a range
-noise of 13 mm."""
+MUCH_NOISE = 0.0085
+"""From this noise along z on level surfaces are drawn together first, m: a range noise
+of about 12 mm."""
 MAX_REACH = 0.055
 """Most that this looks up and down, m: less than half of the usual rise."""
 DENSE = Sampling()
 """A cloud of which nothing is known."""
-DOWN = np.array([0.0, 0.0, -1.0])
-"""Gravity's direction in the gravity-aligned frame G that the stages work in."""
-
-
-@dataclass(frozen=True, eq=False)
-class LevelVoxels:
-    """Voxels that Filters 1 and 2 leave: C of Algorithm 1."""
-
-    points: Vector
-    """Representative points, (m, 3), m."""
-    normals: Vector
-    """Their unit normals, (m, 3)."""
-    pairs: NDArray[np.int64]
-    """Adjacent ones, (p, 2)."""
-    grid: VoxelGrid
-    """The voxels before the filters."""
-    member: NDArray[np.int64]
-    """Index in the grid of each of the m."""
-    grid_pairs: NDArray[np.int64]
-    """Adjacent voxels of the grid, (q, 2)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,135 +79,19 @@ class Stages:
     """Rotation from the cloud's frame into G, (3, 3)."""
     cloud: Vector
     """The usable points, (n, 3), m."""
-    voxels: LevelVoxels
-    """After Filters 1 and 2."""
-    supervoxels: Supervoxels
-    """Over-segmentation of the voxels."""
-    clusters: NDArray[np.int64]
-    """Cluster of each voxel after Filter 3; -1 for none."""
     planes: tuple[FittedPlane, ...]
-    """Planes that RANSAC found."""
+    """Planes that were fitted."""
     patches: tuple[Patch, ...]
     """The planes, bounded."""
-
-
-def filter_level(
-    cloud: Vector, params: PlaneSegmenterParams, viewpoint: Vector | None
-) -> LevelVoxels:
-    """Runs Algorithm 1, lines 1 to 12: normals, Filter 1, voxels, Filter 2.
-
-    Args:
-        cloud: finite points in G, (n, 3), m.
-        params: parameters.
-        viewpoint: where they were seen from, (3,), m.
-    """
-
-    def normals_of(points: Vector) -> Vector:
-        normals = estimate_normals(points, params.neighbors, params.threads)
-        return orient_normals(points, normals, DOWN, viewpoint)
-
-    if params.order == "normals_first":
-        normals = normals_of(cloud)
-        level = filter_slopes(normals, DOWN, params.slope_tolerance)
-        grid = voxelize(cloud, params.voxel_size)
-        occupied = voxelize(cloud[level], params.voxel_size)
-        source = np.flatnonzero(level)[occupied.representative]
-        voxel = grid.voxel_of_point[source]
-        own = adjacent_voxels(occupied)
-        kept = filter_sparse(own, len(source), params.min_neighbors)
-        return LevelVoxels(
-            points=cloud[source[kept]],
-            normals=normals[source[kept]],
-            pairs=keep_pairs(own, kept),
-            grid=grid,
-            member=voxel[kept],
-            grid_pairs=adjacent_voxels(grid),
-        )
-    grid = voxelize(cloud, params.voxel_size)
-    pairs = adjacent_voxels(grid)
-    normals = normals_of(grid.mean)
-    kept = filter_sparse(pairs, len(grid.keys), params.min_neighbors)
-    kept &= filter_slopes(normals, DOWN, params.slope_tolerance)
-    return LevelVoxels(
-        points=cloud[grid.representative[kept]],
-        normals=normals[kept],
-        pairs=keep_pairs(pairs, kept),
-        grid=grid,
-        member=np.flatnonzero(kept),
-        grid_pairs=pairs,
-    )
-
-
-def cluster_level(
-    voxels: LevelVoxels, params: PlaneSegmenterParams, sole: Sole
-) -> tuple[Supervoxels, NDArray[np.int64]]:
-    """Grows supervoxels, clusters them and applies Filter 3.
-
-    Returns:
-        The supervoxels and the cluster of each voxel, (m,); -1 for none.
-    """
-    supervoxels = cluster_supervoxels(
-        voxels.points,
-        voxels.normals,
-        voxels.pairs,
-        seed_resolution=params.seed_resolution,
-        influence=params.influence,
-    )
-    clusters = merge_supervoxels(
-        supervoxels,
-        voxels.pairs,
-        angle=params.merge_angle,
-        offset=params.merge_offset,
-    )
-    return supervoxels, filter_small(clusters, params.voxel_size, sole.area)
-
-
-def fit_planes(
-    voxels: LevelVoxels,
-    clusters: NDArray[np.int64],
-    params: PlaneSegmenterParams,
-    sole: Sole,
-) -> tuple[FittedPlane, ...]:
-    """Fits RANSAC planes within the slope tolerance, larger than a sole."""
-    of = clusters if params.planes_from == "clusters" else np.minimum(clusters, 0)
-    planes = ransac_planes(
-        voxels.points,
-        of,
-        tolerance=params.plane_tolerance,
-        min_inliers=params.min_voxels(sole),
-        rng=np.random.default_rng(params.seed),
-    )
-    if not planes:
-        return planes
-    normals = np.array([plane.normal for plane in planes])
-    level = filter_slopes(normals, DOWN, params.slope_tolerance)
-    return tuple(plane for plane, good in zip(planes, level, strict=True) if good)
-
-
-def bound_planes(
-    planes: tuple[FittedPlane, ...],
-    voxels: LevelVoxels,
-    cloud: Vector,
-    params: PlaneSegmenterParams,
-) -> tuple[Patch, ...]:
-    """Bounds the planes by the points of the cloud."""
-    owner = assign_support(
-        planes,
-        voxels.member,
-        voxels.grid.mean,
-        voxels.grid_pairs,
-        tolerance=params.plane_tolerance,
-        rings=2,
-    )
-    return make_patches(
-        planes,
-        owner,
-        voxels.grid.index,
-        voxels.grid.voxel_of_point,
-        cloud,
-        voxel_size=params.voxel_size,
-        tolerance=params.plane_tolerance,
-    )
+    clusters: NDArray[np.int64]
+    """Cluster of each piece of surface, or of each voxel, after Filter 3; -1 for
+    none."""
+    surfaces: Surfaces | None = None
+    """Pieces of surface by columns; None by "supervoxels"."""
+    voxels: LevelVoxels | None = None
+    """Voxels after Filters 1 and 2, by "supervoxels"."""
+    supervoxels: Supervoxels | None = None
+    """Over-segmentation of the voxels, by "supervoxels"."""
 
 
 def make_segmentation(
@@ -358,18 +224,38 @@ def segment_planes(
         params = replace(
             params, voxel_size=min(1.1 * spacing, 0.5 * params.seed_resolution)
         )
-    noise = 0.0 if spacing > 0.0 else cloud_noise(cloud)
+    surfaces = cut_columns(cloud, params.voxel_size)
+    noise = 0.0 if spacing > 0.0 else level_noise(surfaces, cloud)
     sampling = Sampling(spacing, noise, drawn=noise > MUCH_NOISE)
     if sampling.drawn:
-        cloud = draw_levels_together(cloud, min(4.0 * noise, MAX_REACH))
+        cloud = draw_levels_together(cloud, min(3.0 * noise, MAX_REACH))
+        surfaces = cut_columns(cloud, params.voxel_size)
     lap("cloud")
-    voxels = filter_level(cloud, params, eye)
-    lap("filters")
-    supervoxels, clusters = cluster_level(voxels, params, sole)
-    lap("supervoxels")
-    planes = fit_planes(voxels, clusters, params, sole)
-    lap("planes")
-    patches = bound_planes(planes, voxels, cloud, params)
+    voxels: LevelVoxels | None = None
+    supervoxels: Supervoxels | None = None
+    if params.method == "supervoxels":
+        voxels = filter_level(cloud, params, eye)
+        lap("filters")
+        supervoxels, clusters = cluster_level(voxels, params, sole)
+        lap("supervoxels")
+        planes = fit_planes(voxels, clusters, params, sole)
+        lap("planes")
+        patches = bound_planes(planes, voxels, cloud, params)
+    else:
+        clusters = cluster_surfaces(
+            surfaces, eye, offset=params.merge_offset, min_area=sole.area
+        )
+        lap("clusters")
+        planes = fit_surfaces(
+            surfaces,
+            clusters,
+            tolerance=params.plane_tolerance,
+            slope_tolerance=params.slope_tolerance,
+            min_area=sole.area,
+            seed=params.seed,
+        )
+        lap("planes")
+        patches = bound_surfaces(surfaces, planes, cloud, params.plane_tolerance)
     if params.staircase_from == "chain":
         patches = join_parts(patches, params.stairs)
     lap("boundaries")
@@ -377,7 +263,13 @@ def segment_planes(
     if np.any(origin):
         segmentation = shift_segmentation(segmentation, origin)
     lap("staircase")
-    segmentation = replace(segmentation, times_ms=tuple(times))
-    return segmentation, Stages(
-        R_GW, cloud, voxels, supervoxels, clusters, planes, patches
+    return replace(segmentation, times_ms=tuple(times)), Stages(
+        R_GW=R_GW,
+        cloud=cloud,
+        planes=planes,
+        patches=patches,
+        clusters=clusters,
+        surfaces=None if params.method == "supervoxels" else surfaces,
+        voxels=voxels,
+        supervoxels=supervoxels,
     )

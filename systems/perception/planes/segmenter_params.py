@@ -33,6 +33,11 @@ class PlaneSegmenterParams(Parameters):
     """Largest slope to step on, rad: 15 deg; T is 1 + cos of it (Table 1)."""
     neighbors: int = number(10, least=5, most=1000)
     """k of the normals: the paper's compromise of area and time (Sec. 5)."""
+    method: str = choice("surfaces", ("surfaces", "supervoxels"))
+    """How planes are found: "surfaces" clusters level pieces of columns of a voxel's
+    side, "supervoxels" is the paper's way (Algorithm 1), to which `order`,
+    `planes_from`, `neighbors`, `min_neighbors`, `seed_resolution`, `influence` and
+    `merge_angle` belong."""
     order: str = choice("voxels_first", ("voxels_first", "normals_first"))
     """"normals_first" takes normals of the points, then Filter 1, voxels and Filter 2,
     as in Algorithm 1; "voxels_first" departs from it: normals are those of the voxels'

@@ -17,19 +17,19 @@ from footfall.models.values.vector import Vector
 from footfall.systems.perception.clouds.cloud_files import read_cloud
 from footfall.systems.perception.planes.flights import find_flights
 from footfall.systems.perception.planes.levels import Sampling
-from footfall.systems.perception.planes.plane_segmentation import (
-    LevelVoxels,
-    bound_planes,
-    cluster_level,
-    fit_planes,
-    segment_planes,
-)
+from footfall.systems.perception.planes.plane_segmentation import segment_planes
 from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterParams
 from footfall.systems.perception.planes.segments import tread_segment
 from footfall.systems.perception.planes.stair_chain import StairLimits
 from footfall.systems.perception.planes.staircase_merging import (
     StaircaseMapParams,
     leave_partial,
+)
+from footfall.systems.perception.planes.supervoxel_planes import (
+    LevelVoxels,
+    bound_planes,
+    cluster_level,
+    fit_planes,
 )
 from footfall.systems.perception.planes.voxels import adjacent_voxels, voxelize
 
