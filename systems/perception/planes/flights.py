@@ -29,14 +29,17 @@ from footfall.systems.perception.planes.treads import (
     is_something_behind,
     refine_treads,
     stair_rotation,
+    voxel_area,
 )
 
 LONE_TRIES = 4
 """Planes that are tried as a lone tread, the lowest first."""
 LONE_AREA = 0.06
-"""Least area of a lone tread that was seen, m^2: of two soles."""
+"""Least area of a lone or winding tread that was seen, m^2: of two soles."""
 RISE_NOISE = 0.01
 """Most that a rise may be off by noise, m."""
+MIN_SEEN = 0.5
+"""Least part of a tread's rectangle over which points were seen."""
 UNDER_ROBOT = 0.4
 """A plane as near to the viewpoint, seen from above, m, is the one it stands on."""
 
@@ -154,6 +157,21 @@ def _flights_of_one_size(
     return [Flight(chosen, yaw, treads, floor_below(patches, chosen, limits))]
 
 
+def is_tread(tread: Tread, yaw: float, params: PlaneSegmenterParams) -> bool:
+    """Tells whether a tread, now that its edges are known, is as wide as one and whole.
+
+    Args:
+        tread: the tread.
+        yaw: of its staircase's frame S in G, rad.
+        params: limits, and the voxels of which it must cover half its rectangle's.
+    """
+    depth, width = tread.high - tread.low
+    if width < params.stairs.min_width - RISE_NOISE or depth <= 0.0:
+        return False
+    seen = voxel_area(tread, stair_rotation(yaw), params.voxel_size)
+    return bool(seen >= MIN_SEEN * depth * width)
+
+
 def _settle(
     chosen: list[int],
     patches: tuple[Patch, ...],
@@ -173,6 +191,8 @@ def _settle(
     landings = [is_landing(patch, limits) for patch in flight]
     straight = [patch for patch, wide in zip(flight, landings, strict=True) if not wide]
     if any(is_turned(a, b, limits) for a, b in pairwise(straight)):
+        if any(patch.area < LONE_AREA for patch in flight):
+            return None
         floor = floor_below(patches, chosen, limits)
         return Flight(chosen, 0.0, [], floor, winding=True)
     yaw, treads = refine_treads(flight, cloud, viewpoint, landings, sampling)
@@ -186,6 +206,11 @@ def _settle(
             deeper = not is_something_behind(treads[-1], cloud @ stair_rotation(yaw))
         if deeper or depths[-1] < limits.min_part * usual:
             chosen, treads = chosen[:-1], treads[:-1]
+    good = [is_tread(tread, yaw, params) for tread in treads]
+    if not all(good):
+        chosen, treads = chosen[: good.index(False)], treads[: good.index(False)]
+    if not treads:
+        return None
     if not treads[0].drops:
         # Where nothing lower was seen before it, its end in the cloud is that of the
         # view, not its edge: the floor, or the tread that the robot stands on.

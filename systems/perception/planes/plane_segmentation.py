@@ -56,6 +56,7 @@ from footfall.systems.perception.planes.surfaces import (
     level_noise,
 )
 from footfall.systems.perception.planes.voxels import (
+    MAX_SPARSE,
     cloud_origin,
     sparse_spacing,
     usable_points,
@@ -178,6 +179,13 @@ def segment_supports(
     return make_segmentation(tuple(patches), cloud, params, eye, R_GW)
 
 
+def _moved(points: Vector, origin: Vector, R_GW: Vector) -> Vector:
+    """Computes points, (n, 3), from another origin in W and turned into G."""
+    if np.any(origin):
+        points = points - origin
+    return points if np.array_equal(R_GW, np.eye(3)) else points @ R_GW.T
+
+
 def segment_planes(
     points: Vector,
     gravity: Vector,
@@ -216,10 +224,13 @@ def segment_planes(
     R_GW = gravity_aligned_rotation(gravity)
     # A cloud far away is worked on near the origin, where numbers are fine.
     origin = cloud_origin(points)
-    points = np.asarray(points, dtype=np.float64) - origin
-    cloud = usable_points(points) @ R_GW.T
+    cloud = usable_points(_moved(np.asarray(points, dtype=np.float64), origin, R_GW))
     eye = None if viewpoint is None else R_GW @ (viewpoint - origin)
-    spacing = sparse_spacing(cloud, params.voxel_size)
+    if eye is not None and params.method == "surfaces":
+        # Of what is higher than the eye it sees no upper side.
+        cloud = cloud[cloud[:, 2] < eye[2]]
+    dense = len(points) > MAX_SPARSE
+    spacing = 0.0 if dense else sparse_spacing(cloud, params.voxel_size)
     if spacing > 0.0:
         params = replace(
             params, voxel_size=min(1.1 * spacing, 0.5 * params.seed_resolution)
@@ -249,6 +260,8 @@ def segment_planes(
         planes = fit_surfaces(
             surfaces,
             clusters,
+            offset=params.merge_offset,
+            angle=params.bend_angle,
             tolerance=params.plane_tolerance,
             slope_tolerance=params.slope_tolerance,
             min_area=sole.area,

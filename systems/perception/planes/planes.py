@@ -16,6 +16,10 @@ from footfall.models.values.vector import Vector
 HYPOTHESES = 48
 """Planes tried by RANSAC at a time: finds a plane with half of the points inliers
 with probability 1 - (1 - 0.5^3)^48 = 0.998."""
+MANY_POINTS = 1000
+"""Of fewer points the hull is found at once."""
+MANY_HEIGHTS = 5000
+"""Points that tell how high a plane is from below to above; more are the same."""
 SCORED_POINTS = 1500
 """Points that judge a hypothesis; more would not change the choice."""
 
@@ -220,17 +224,17 @@ def bound_patch(plane: FittedPlane, support: Vector, area: float) -> Patch | Non
     basis = plane_axes(plane.normal, np.array([1.0, 0.0, 0.0]))
     local = (support - plane.point) @ basis
     try:
-        hull = ConvexHull(local[:, :2])
+        rim = outer_points(local[:, :2])
+        corners = rim[ConvexHull(rim).vertices]
     except QhullError:
         return None
-    corners = local[hull.vertices, :2]
     angle, low, high = min_rectangle(corners)
     size = high - low
     c, s = np.cos(angle), np.sin(angle)
     turn = np.array([[c, -s], [s, c]])
     middle = turn @ ((low + high) / 2.0)
     flat = np.hstack([corners, np.zeros((len(corners), 1))])
-    z = support[:, 2]
+    z = support[:: 1 + len(support) // MANY_HEIGHTS, 2]
     low_z, high_z = np.percentile(z, [2.0, 98.0])
     return Patch(
         plane=plane,
@@ -241,6 +245,40 @@ def bound_patch(plane: FittedPlane, support: Vector, area: float) -> Patch | Non
         axes=plane_axes(plane.normal, basis @ np.append(turn[:, 0], 0.0)),
         outline=plane.point + flat @ basis.T,
     )
+
+
+def outer_points(points: Vector) -> Vector:
+    """Leaves out points that are no corner of the convex hull (Akl and Toussaint 1978).
+
+    These are the ones within the octagon of the farthest points to eight sides.
+
+    Args:
+        points: (n, 2), m.
+    """
+    if len(points) < MANY_POINTS:
+        return points
+    x, y = points[:, 0], points[:, 1]
+    diagonal, other = x + y, x - y
+    farthest = [
+        np.argmin(side) if least else np.argmax(side)
+        for side, least in (
+            (x, False),
+            (diagonal, False),
+            (y, False),
+            (other, True),
+            (x, True),
+            (diagonal, True),
+            (y, True),
+            (other, False),
+        )
+    ]
+    octagon = points[farthest]
+    inside = np.ones(len(points), dtype=bool)
+    for a, b in zip(octagon, np.roll(octagon, -1, axis=0), strict=True):
+        if np.array_equal(a, b):
+            continue
+        inside &= (b[0] - a[0]) * (y - a[1]) > (b[1] - a[1]) * (x - a[0])
+    return points[~inside]
 
 
 def plane_axes(normal: Vector, toward: Vector) -> Vector:

@@ -52,9 +52,12 @@ class PlaneSegmenterParams(Parameters):
     merge_angle: float = number(0.14, "rad", above=0.0)
     """Most that the normals of adjacent supervoxels of one cluster differ, rad; ours,
     since the paper (Sec. 4.2) gives no thresholds."""
+    bend_angle: float = number(0.1, "rad", above=0.0)
+    """Most that the normals of neighbouring pieces of one surface differ, rad, where
+    surfaces that hang together are not one plane; of "surfaces"."""
     merge_offset: float = number(0.015, "m", above=0.0)
-    """Most that an adjacent supervoxel lies off the plane, m: three times the noise;
-    ours as well."""
+    """Most that an adjacent supervoxel lies off the plane, or that neighbouring pieces
+    of one surface differ in height, m: three times the noise; ours as well."""
     plane_tolerance: float = number(0.015, "m", above=0.0)
     """Most that an inlier of RANSAC lies off its plane, m: three times the noise."""
     max_dz: float = number(0.03, "m", above=0.0)

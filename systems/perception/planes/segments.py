@@ -14,10 +14,11 @@ from footfall.models.values.perceived import (
 )
 from footfall.models.values.vector import Vector
 from footfall.systems.perception.planes.planes import Patch, plane_axes
-from footfall.systems.perception.planes.treads import Tread, stair_rotation
-
-RIM = 0.25
-"""Part of a voxel by which noise may carry a point of a tread over its edge."""
+from footfall.systems.perception.planes.treads import (
+    Tread,
+    stair_rotation,
+    voxel_area,
+)
 
 
 def patch_segment(patch: Patch, R_GW: Vector, yaw: float | None = None) -> PlaneSegment:
@@ -63,7 +64,7 @@ def tread_segment(
 
     inside = np.clip(tread.points[:, :2], tread.low, tread.high)
     outline = inside[ConvexHull(inside).vertices]
-    area = _voxel_area(tread, rotation, voxel_size)
+    area = voxel_area(tread, rotation, voxel_size)
     middle = on_plane((tread.low + tread.high)[None] / 2.0)[0]
     size = (tread.high - tread.low) / np.array([axes[0, 0], 1.0])
     return _segment(
@@ -78,18 +79,6 @@ def tread_segment(
             front=tread.drops, back=tread.ends, right=tread.right, left=tread.left
         ),
     )
-
-
-def _voxel_area(tread: Tread, rotation: Vector, voxel_size: float) -> float:
-    """Computes the area of the voxels of a tread's points within its edges, m^2.
-
-    This is a n_i of Eq. 3 of the stair paper, along the tread's plane.
-    """
-    xy, margin = tread.points[:, :2], RIM * voxel_size
-    inside = np.all((xy >= tread.low - margin) & (xy <= tread.high + margin), axis=1)
-    cells = np.floor(tread.points[inside] @ rotation.T / voxel_size).astype(np.int64)
-    count = len(np.unique(cells[:, 0] * (1 << 32) + cells[:, 1]))
-    return count * voxel_size**2 / max(float(tread.normal[2]), 0.1)
 
 
 def winding_segments(

@@ -38,6 +38,8 @@ ALONE = 3
 """A piece with fewer level neighbours of eight bridges nothing."""
 FLAT = 0.9
 """Part of a cluster that lies on its plane from which on it is one plane."""
+ROUGH = 0.006
+"""Standard deviation off its plane from which on a neighbourhood is not flat, m."""
 MIN_NOISE_POINTS = 3
 """Fewer points in a piece say nothing of the noise."""
 
@@ -193,10 +195,20 @@ def cluster_surfaces(
     if eye is not None:
         short &= surfaces.high < eye[2]
     level = np.flatnonzero(short)
-    result = np.full(len(surfaces.column), -1, dtype=np.int64)
     if not len(level):
-        return result
+        return np.full(len(surfaces.column), -1, dtype=np.int64)
     pairs = neighbours(surfaces, level, offset)
+    return _connected(surfaces, level, pairs, min_area)
+
+
+def _connected(
+    surfaces: Surfaces,
+    level: NDArray[np.int64],
+    pairs: NDArray[np.int64],
+    min_area: float,
+) -> NDArray[np.int64]:
+    """Numbers what hangs together and is no smaller than a foot; -1 for the rest."""
+    result = np.full(len(surfaces.column), -1, dtype=np.int64)
     linked = np.bincount(pairs.ravel(), minlength=len(level)) >= ALONE
     pairs = pairs[linked[pairs[:, 0]] & linked[pairs[:, 1]]]
     graph = coo_array(
@@ -215,24 +227,58 @@ def fit_surfaces(
     surfaces: Surfaces,
     clusters: NDArray[np.int64],
     *,
+    offset: float,
+    angle: float,
     tolerance: float,
     slope_tolerance: float,
     min_area: float,
     seed: int,
 ) -> tuple[FittedPlane, ...]:
-    """Fits a plane to each cluster, or several by RANSAC where one is not enough.
+    """Fits a plane to each cluster; one that is not flat is split where it bends first.
 
     Args:
         surfaces: the pieces.
         clusters: cluster of each, (m,); -1 for none.
+        offset: most that neighbours differ in height, m.
+        angle: most that the normals of neighbours differ, rad.
         tolerance: most that an inlier lies off its plane, m.
         slope_tolerance: steepest plane, rad.
         min_area: least area of a plane, m^2.
-        seed: of RANSAC.
+        seed: of RANSAC, for what is uneven without a bend.
 
     Returns:
         Planes whose inliers index pieces.
     """
+    planes, uneven = _fit_flat(surfaces, clusters, tolerance)
+    if np.any(uneven >= 0):
+        smooth = split_at_bends(
+            surfaces,
+            np.flatnonzero(uneven >= 0),
+            offset=offset,
+            angle=angle,
+            slope_tolerance=slope_tolerance,
+            min_area=min_area,
+        )
+        flat, uneven = _fit_flat(surfaces, smooth, tolerance)
+        planes += flat
+    if np.any(uneven >= 0):
+        planes.extend(
+            ransac_planes(
+                surfaces.mean,
+                uneven,
+                tolerance=tolerance,
+                min_inliers=int(np.ceil(min_area / surfaces.cell**2)),
+                rng=np.random.default_rng(seed),
+            )
+        )
+    upright = np.cos(slope_tolerance)
+    return tuple(plane for plane in planes if plane.normal[2] >= upright)
+
+
+def _fit_flat(
+    surfaces: Surfaces, clusters: NDArray[np.int64], tolerance: float
+) -> tuple[list[FittedPlane], NDArray[np.int64]]:
+    """Fits planes by least squares; returns the clusters that have none as well."""
     planes: list[FittedPlane] = []
     uneven = np.full(len(clusters), -1, dtype=np.int64)
     order = np.argsort(clusters, kind="stable")
@@ -248,18 +294,74 @@ def fit_surfaces(
         point, normal = fit_plane(mean[inside])
         inside = np.abs((mean - point) @ normal) <= tolerance
         planes.append(FittedPlane(point, normal, members[inside]))
-    if np.any(uneven >= 0):
-        planes.extend(
-            ransac_planes(
-                surfaces.mean,
-                np.unique(uneven, return_inverse=True)[1].reshape(-1) - 1,
-                tolerance=tolerance,
-                min_inliers=int(np.ceil(min_area / surfaces.cell**2)),
-                rng=np.random.default_rng(seed),
-            )
-        )
-    upright = np.cos(slope_tolerance)
-    return tuple(plane for plane in planes if plane.normal[2] >= upright)
+    return planes, uneven
+
+
+def split_at_bends(
+    surfaces: Surfaces,
+    level: NDArray[np.int64],
+    *,
+    offset: float,
+    angle: float,
+    slope_tolerance: float,
+    min_area: float,
+) -> NDArray[np.int64]:
+    """Clusters pieces anew, those whose normals differ from their neighbours' apart.
+
+    Normals are those of the planes through a piece and its neighbours; pieces that are
+    too steep (Filter 1) or about which it is not flat belong to none.
+
+    Args:
+        surfaces: the pieces.
+        level: indices of those to be clustered, (m,), ascending.
+        offset: most that neighbours differ in height, m.
+        angle: most that the normals of neighbours differ, rad.
+        slope_tolerance: steepest surface, rad.
+        min_area: least area of a cluster, m^2.
+
+    Returns:
+        Cluster of each of all pieces; -1 for none.
+    """
+    pairs = neighbours(surfaces, level, offset)
+    slope, rough = _local_slopes(surfaces.mean[level], pairs)
+    smooth = (np.hypot(*slope.T) <= np.tan(slope_tolerance)) & (rough <= ROUGH)
+    a, b = pairs[:, 0], pairs[:, 1]
+    alike = np.hypot(*(slope[a] - slope[b]).T) <= angle
+    pairs = pairs[smooth[a] & smooth[b] & alike]
+    return _connected(surfaces, level, pairs, min_area)
+
+
+def _local_slopes(mean: Vector, pairs: NDArray[np.int64]) -> tuple[Vector, Vector]:
+    """Fits planes through pieces and their neighbours.
+
+    Args:
+        mean: of each piece, (m, 3), m.
+        pairs: neighbours, (p, 2).
+
+    Returns:
+        Slopes dz/dx and dz/dy, (m, 2), and standard deviations off the plane, (m,), m.
+    """
+    a, b, m = pairs[:, 0], pairs[:, 1], len(mean)
+    d = mean[b] - mean[a]
+
+    def total(values: Vector, odd: bool) -> Vector:
+        own = np.bincount(a, values, minlength=m)
+        other = np.bincount(b, values, minlength=m)
+        return own - other if odd else own + other
+
+    n = 1.0 + np.bincount(pairs.ravel(), minlength=m)
+    first = np.stack([total(d[:, k], odd=True) for k in range(3)])
+    second = {
+        (i, k): total(d[:, i] * d[:, k], odd=False) - first[i] * first[k] / n
+        for i in range(3)
+        for k in range(i, 3)
+    }
+    xx, xy, yy = second[0, 0] + 1e-9, second[0, 1], second[1, 1] + 1e-9
+    xz, yz = second[0, 2], second[1, 2]
+    determinant = np.maximum(xx * yy - xy * xy, 1e-18)
+    x, y = (yy * xz - xy * yz) / determinant, (xx * yz - xy * xz) / determinant
+    left = np.maximum(second[2, 2] - x * xz - y * yz, 0.0)
+    return np.column_stack([x, y]), np.sqrt(left / n)
 
 
 def grow_rims(
@@ -282,10 +384,7 @@ def grow_rims(
     for number in range(len(planes) - 1, -1, -1):
         owner[planes[number].inliers] = number
     for number, plane in enumerate(planes):
-        cells = np.unique(column[plane.inliers])
-        shifts = np.array([-1, 0, 1])
-        around = (shifts[:, None] * surfaces.width + shifts).ravel()
-        rim = np.setdiff1d((cells[:, None] + around).ravel(), cells)
+        rim = _rim(column[plane.inliers], surfaces.width)
         begin = np.searchsorted(column, rim)
         end = np.searchsorted(column, rim, side="right")
         pieces = np.repeat(begin, end - begin)
@@ -300,6 +399,22 @@ def grow_rims(
         pieces = pieces[crossed & (owner[pieces] < 0)]
         owner[pieces] = number
     return owner
+
+
+def _rim(cells: NDArray[np.int64], width: int) -> NDArray[np.int64]:
+    """Finds the columns that touch some, (k,), which ascend and may be repeated."""
+    cells = cells[np.diff(cells, prepend=-1) > 0]
+    inner = np.zeros(len(cells), dtype=bool)
+    inner[1:-1] = cells[2:] - cells[:-2] == 2
+    for shift in (-width, width):
+        at = np.minimum(np.searchsorted(cells, cells + shift), len(cells) - 1)
+        inner &= cells[at] == cells + shift
+    shifts = np.array([-1, 0, 1])
+    around = (shifts[:, None] * width + shifts).ravel()
+    outer = np.sort((cells[~inner, None] + around).ravel())
+    outer = outer[np.diff(outer, prepend=-1) > 0]
+    at = np.minimum(np.searchsorted(cells, outer), len(cells) - 1)
+    return outer[cells[at] != outer]
 
 
 def bound_surfaces(

@@ -7,25 +7,26 @@ All of it in a frame G whose z points up.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import ndimage
 
 from footfall.models.values.vector import Vector
 from footfall.systems.perception.planes.levels import Sampling
 from footfall.systems.perception.planes.planes import Patch, fit_plane
+from footfall.systems.perception.planes.tread_points import (
+    CELL,
+    NEAR,
+    PASSING,
+    SLAB,
+    TreadPoints,
+    points_near,
+    tread_points,
+)
 
-SLAB = 0.015
-"""Points this near to a tread's plane belong to it, m: three times the range noise of
-5 mm; where there is more noise, up to twice as much."""
 BIN = 0.03
 """Width of the strips in which the end of a tread is looked for, m."""
-CELL = 0.04
-"""Cell in which points of one tread hang together, m: far lines are this far apart."""
-PASSING = 0.2
-"""How far beyond a tread's outline, on its plane, one looks for rays that pass, m."""
 MAX_SPACING = 0.06
 """Farthest from a tread's end to the next ray beyond that tells where it ends, m."""
 EDGE_SEEN = 0.2
@@ -33,22 +34,16 @@ EDGE_SEEN = 0.2
 OVERHANG = 0.012
 """A tread that ends this far before the face below it overhangs it, m; less may be the
 noise of its own end."""
-FACE = 0.07
-"""How far from a tread's plane its faces are looked at, m: short of the least rise of
-a staircase, 10 cm, and of the noise of the tread there."""
+RIM = 0.25
+"""Part of a voxel by which noise may carry a point of a tread over its edge."""
+MAX_TURNS = 3
+"""Most often that the direction of a flight is improved."""
+LEAST_TURN = 2e-4
+"""A smaller improvement is none, rad."""
 SHADOW = 0.25
 """Widest shadow across a tread, m: of a leg."""
 MIN_FACE_POINTS = 25
 """Fewer points do not make a face."""
-CROSSING = 0.3
-"""Share of a cell's points above and below a plane, of those on it, from which a face
-runs through the plane there: a wall, a handrail, the side of the next step."""
-LONELY = 0.2
-"""Share of the usual number of points about a cell below which they are outliers."""
-NEAR = 0.4
-"""How far about its treads a flight is looked at, m."""
-UNDER = 0.8
-"""How much farther below them, m: to the floor under a table."""
 BEHIND = 2.0
 """How far behind a last tread one looks for what its shadow leaves in view, m."""
 BEFORE = (0.04, 0.25)
@@ -74,34 +69,35 @@ class Tread:
     ends: bool
     """Whether a face was seen at its back edge or, of the last tread, what lies behind
     it."""
-    right: bool
+    right: bool = False
     """Whether something else was seen beyond its right end."""
-    left: bool
+    left: bool = False
     """Whether something else was seen beyond its left end."""
-    drop: float
+    drop: float = np.nan
     """Height over what was seen before its front edge, m; NaN where nothing was."""
-    reach: float
-    """How far from its plane its faces are looked at, m."""
-
-
-@dataclass(frozen=True, eq=False)
-class _Slab:
-    """The points near a tread's plane, without those of faces and outliers."""
-
-    points: Vector
-    """In G, (n, 3), m."""
-    noise: float
-    """Their standard deviation off the plane, m."""
-    thickness: float
-    """Most that they lie off the plane, m."""
-    reach: float
-    """How far from the plane faces are looked at, m."""
 
 
 def stair_rotation(yaw: float) -> Vector:
     """Computes R_GS of a staircase whose x is turned by `yaw` about G's z, (3, 3)."""
     c, s = np.cos(yaw), np.sin(yaw)
     return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def voxel_area(tread: Tread, rotation: Vector, voxel_size: float) -> float:
+    """Computes the area of the voxels of a tread's points within its edges, m^2.
+
+    This is a n_i of Eq. 3 of the stair paper, along the tread's plane.
+
+    Args:
+        tread: the tread, in S.
+        rotation: R_GS, (3, 3).
+        voxel_size: v, m.
+    """
+    xy, margin = tread.points[:, :2], RIM * voxel_size
+    inside = np.all((xy >= tread.low - margin) & (xy <= tread.high + margin), axis=1)
+    cells = np.floor(tread.points[inside] @ rotation.T / voxel_size).astype(np.int64)
+    count = len(np.unique(cells[:, 0] * (1 << 32) + cells[:, 1]))
+    return count * voxel_size**2 / max(float(tread.normal[2]), 0.1)
 
 
 def initial_yaw(
@@ -172,57 +168,24 @@ def refine_treads(
         Yaw of S in G, rad, and the treads in S (which has G's origin).
     """
     sampling = sampling or Sampling()
-    near = _near(patches, cloud)
+    near = points_near(patches, cloud)
     yaw = initial_yaw(patches, near, viewpoint, landings)
-    wide = landings or [False] * len(patches)
-    slabs = [
-        _slab(patch, near, _face_reach(patches, i), landing, sampling)
-        for i, (patch, landing) in enumerate(zip(patches, wide, strict=True))
+    wide = list(landings) or [False] * len(patches)
+    about = tread_points(patches, near, cloud, viewpoint, wide, sampling)
+    # Faces tell the direction before anything else is known.
+    treads = [_outlined(points, yaw) for points in about]
+    yaw -= float(np.arctan(_common_slope(treads, about, yaw)))
+    treads = [_bound(points, yaw, sampling, viewpoint) for points in about]
+    for _ in range(MAX_TURNS):
+        turn = float(np.arctan(_common_slope(treads, about, yaw)))
+        if abs(turn) < LEAST_TURN:
+            break
+        yaw -= turn
+        treads = [_bound(points, yaw, sampling, viewpoint) for points in about]
+    return yaw, [
+        _tell_surroundings(tread, points, yaw)
+        for tread, points in zip(treads, about, strict=True)
     ]
-    passing = _passing(patches, cloud, viewpoint)
-
-    def bound(yaw: float) -> tuple[list[Tread], Vector]:
-        rotation = stair_rotation(yaw)
-        local = near @ rotation
-        eye = None if viewpoint is None else viewpoint @ rotation
-        treads = [
-            _bound(patch, slab, local, others @ rotation, rotation, sampling, eye)
-            for patch, slab, others in zip(patches, slabs, passing, strict=True)
-        ]
-        return treads, local
-
-    for _ in range(3):
-        yaw = float(yaw - np.arctan(_common_slope(*bound(yaw))))
-    return yaw, bound(yaw)[0]
-
-
-def _passing(
-    patches: list[Patch], cloud: Vector, viewpoint: Vector | None
-) -> list[Vector]:
-    """Selects the points of the cloud whose rays pass by each tread, lower than it.
-
-    Args:
-        patches: the treads.
-        cloud: the cloud, (n, 3), m.
-        viewpoint: where it was seen from, (3,), m.
-    """
-    if viewpoint is None:
-        return [np.zeros((0, 3))] * len(patches)
-    cloud = cloud[cloud[:, 2] < viewpoint[2] - PASSING]
-    slant = (cloud[:, :2] - viewpoint[:2]) / (viewpoint[2] - cloud[:, 2])[:, None]
-    chosen = []
-    for patch in patches:
-        height = viewpoint[2] - patch.outline[:, 2]
-        if height.min() <= PASSING:
-            chosen.append(np.zeros((0, 3)))
-            continue
-        rim = (patch.outline[:, :2] - viewpoint[:2]) / height[:, None]
-        margin = PASSING / height.min()
-        low, high = rim.min(axis=0) - margin, rim.max(axis=0) + margin
-        near = np.all((slant > low) & (slant < high), axis=1)
-        off = (cloud[near] - patch.plane.point) @ patch.plane.normal
-        chosen.append(cloud[near][off < -SLAB])
-    return chosen
 
 
 def is_something_behind(tread: Tread, cloud: Vector) -> bool:
@@ -239,150 +202,117 @@ def is_something_behind(tread: Tread, cloud: Vector) -> bool:
     return int(np.count_nonzero(behind)) >= MIN_FACE_POINTS
 
 
-def _near(patches: list[Patch], cloud: Vector) -> Vector:
-    outline = np.concatenate([patch.outline for patch in patches])
-    low, high = outline.min(axis=0) - NEAR, outline.max(axis=0) + NEAR
-    low[2] -= UNDER
-    return cloud[np.all((cloud > low) & (cloud < high), axis=1)]
-
-
-def _face_reach(patches: list[Patch], number: int) -> float:
-    """Computes how far from a tread's plane its faces can be told from its neighbours.
-
-    Of low steps the next tread is nearer than `FACE`.
-    """
-    height = float(patches[number].center[2])
-    rises = [abs(float(patch.center[2]) - height) for patch in patches]
-    least = min((rise for rise in rises if rise > SLAB), default=np.inf)
-    return min(FACE, max(least - SLAB, 2.0 * SLAB))
-
-
-def _slab(
-    patch: Patch, near: Vector, reach: float, landing: bool, sampling: Sampling
-) -> _Slab:
-    """Selects the points of a tread from the cloud near it, (n, 3), in G."""
-    point, normal = patch.plane.point, patch.plane.normal
-    off = (near - point) @ normal
-    noise = 1.4826 * float(np.median(np.abs((patch.points - point) @ normal)))
-    thickness = min(max(3.0 * noise, SLAB), 2.0 * SLAB)
-    reach = max(reach, thickness + 0.01)
-    about = np.abs(off) < reach
-    off, near = off[about], near[about]
-    if not len(near):
-        return _Slab(near, noise, thickness, reach)
-    size = max(CELL, 1.5 * sampling.spacing)
-    cells = np.floor(near[:, :2] / size).astype(np.int64)
-    # From the tread, not from the world's origin: the grid is no larger than it.
-    origin = cells.min(axis=0)
-    shape = cells.max(axis=0) - origin + 1
-    key = (cells[:, 0] - origin[0]) * shape[1] + cells[:, 1] - origin[1]
-
-    def count(chosen: NDArray[np.bool]) -> Vector:
-        return np.bincount(key[chosen], minlength=int(np.prod(shape))).astype(float)
-
-    on = np.abs(off) <= thickness
-    number = count(on)
-    faces = np.minimum(count(off > thickness), count(off < -thickness))
-    number[faces >= np.maximum(CROSSING * number, 3.0)] = 0.0
-    about_cell = 9.0 * ndimage.uniform_filter(
-        number.reshape(shape), size=3, mode="constant"
+def _outlined(about: TreadPoints, yaw: float) -> Tread:
+    """Makes a tread of the rectangle of its outline, whose edges are not known."""
+    rotation = stair_rotation(yaw)
+    outline = about.patch.outline @ rotation
+    return Tread(
+        low=outline[:, :2].min(axis=0),
+        high=outline[:, :2].max(axis=0),
+        point=about.patch.plane.point @ rotation,
+        normal=about.patch.plane.normal @ rotation,
+        points=np.zeros((0, 3)),
+        drops=False,
+        ends=False,
     )
-    usual = float(np.median(about_cell.ravel()[key[on]])) if on.any() else 0.0
-    # Far points of a landing are much farther apart than near ones.
-    least = (LONELY / 10.0 if landing else LONELY) * usual
-    kept = on & (number[key] > 0.0) & (about_cell.ravel()[key] >= least)
-    return _Slab(near[kept], noise, thickness, reach)
 
 
 def _bound(
-    patch: Patch,
-    flat: _Slab,
-    local: Vector,
-    passing: Vector,
-    rotation: Vector,
-    sampling: Sampling,
-    eye: Vector | None,
+    about: TreadPoints, yaw: float, sampling: Sampling, viewpoint: Vector | None
 ) -> Tread:
     """Fits the rectangle of a tread.
 
     Args:
-        patch: the tread, in G.
-        flat: its points, in G.
-        local: the cloud about the flight in S, (n, 3), m.
-        passing: points in S whose rays pass by the tread, (k, 3), m.
-        rotation: R_GS, (3, 3).
+        about: the points that tell it, in G.
+        yaw: of S in G, rad.
         sampling: of the cloud.
-        eye: viewpoint in S, (3,), m.
+        viewpoint: where it was seen from in G, (3,), m.
     """
-    core = patch.points @ rotation
-    point, normal = patch.plane.point @ rotation, patch.plane.normal @ rotation
-    off = (local - point) @ normal
-    thickness, reach = flat.thickness, flat.reach
-    slab = _hanging_together(
-        flat.points @ rotation, core, max(CELL, 1.5 * sampling.spacing)
-    )
+    rotation, thickness = stair_rotation(yaw), about.thickness
+    plane = about.patch.plane
+    core = about.patch.points @ rotation
+    point, normal = plane.point @ rotation, plane.normal @ rotation
+    size = max(CELL, 1.5 * sampling.spacing)
+    slab = _hanging_together(about.slab @ rotation, core, size)
     x, y = slab[:, 0], slab[:, 1]
     strip = max(BIN, 1.5 * sampling.spacing)
     on, past, slant = slab[:, :2], np.zeros((0, 2)), 1.0
-    if eye is not None:
+    if viewpoint is not None:
+        eye = viewpoint @ rotation
         run, height = abs(float(np.median(x) - eye[0])), float(eye[2] - point[2])
         slant = run / max(abs(height), 0.1)
         on = _pierced(slab, eye, point, normal)
-        past = _pierced(passing, eye, point, normal)
+        past = _pierced(about.passing @ rotation, eye, point, normal)
     # A face below would draw the front towards the eye by the slab's thickness. Levels
     # that were drawn together are thin, and at their fronts drawn down.
-    lowest = -0.3 * thickness if sampling.drawn else -0.5 * flat.noise
+    lowest = -0.3 * thickness if sampling.drawn else -0.5 * about.noise
     upper = (slab - point) @ normal >= lowest
-    right = -_strip_end(on * [1.0, -1.0], past * [1.0, -1.0], strip)[0]
+    mirrored = np.array([1.0, -1.0])
+    right = -_strip_end(on * mirrored, past * mirrored, strip)[0]
     left = _strip_end(on, past, strip)[0]
     on, past = on[:, ::-1], past[:, ::-1]
-    front = -_strip_end(on[upper] * [1.0, -1.0], past * [1.0, -1.0], strip)[0]
+    front = -_strip_end(on[upper] * mirrored, past * mirrored, strip)[0]
     back, ends = _strip_end(on, past, strip)
-    inside = (local[:, 1] > right + BIN) & (local[:, 1] < left - BIN)
-    face = inside & (off < -thickness) & (off > -reach)
-    standing, found = _face(local[face, 0], front)
+    standing, found = _face(_between(about.below @ rotation, right, left), front)
     # A nosing overhangs its riser: then the tread's own end counts.
-    overhang = OVERHANG + 2.0 * slant * max(flat.noise, sampling.noise)
+    overhang = OVERHANG + 2.0 * slant * max(about.noise, sampling.noise)
     front = standing if found and front > standing - overhang else front
-    riser = inside & (off > thickness) & (off < reach)
-    standing, found = _face(local[riser, 0], back)
+    standing, found = _face(_between(about.above @ rotation, right, left), back)
     back, ends = (standing, True) if found else (back, ends)
-    before = inside & (off < -0.03) & (local[:, 0] < front + BIN)
-    drops = np.count_nonzero(before & (local[:, 0] > front - 0.25)) >= MIN_FACE_POINTS
-    lower = before & (local[:, 0] < front - BEFORE[0])
-    lower &= local[:, 0] > front - BEFORE[1]
-    seen = np.count_nonzero(lower) >= MIN_FACE_POINTS
-    # Through open risers one sees what lies below the step before as well.
-    drop = -float(np.percentile(off[lower], 75.0)) if seen else np.nan
-    y_all = local[:, 1]
-    beside = (np.abs(off) > thickness) & (local[:, 0] > front) & (local[:, 0] < back)
     # The rim is mixed with points of the faces, which would tilt and lift the plane.
     rim = (x > front + 0.02) & (x < back - 0.02) & (y > right) & (y < left)
     if np.count_nonzero(rim) >= MIN_FACE_POINTS:
         point, normal = fit_plane(slab[rim])
+    lower = about.lower @ rotation
+    before = _between(lower[lower[:, 0] < front + BIN], right, left)
     return Tread(
         low=np.array([front, right]),
         high=np.array([back, left]),
         point=point,
         normal=normal,
         points=slab,
-        drops=bool(drops),
-        ends=bool(ends),
-        right=_is_seen_beyond(right - y_all, beside),
-        left=_is_seen_beyond(y_all - left, beside),
-        drop=drop,
-        reach=reach,
+        drops=np.count_nonzero(before > front - 0.25) >= MIN_FACE_POINTS,
+        ends=ends,
     )
 
 
-def _is_seen_beyond(past: Vector, others: NDArray[np.bool]) -> bool:
-    """Tells whether points of other surfaces were seen right beyond an end.
+def _between(points: Vector, right: float, left: float) -> Vector:
+    """Returns x of the points, (n, 3) in S, between a tread's ends but for a strip."""
+    y = points[:, 1]
+    return points[(y > right + BIN) & (y < left - BIN), 0]
+
+
+def _tell_surroundings(tread: Tread, about: TreadPoints, yaw: float) -> Tread:
+    """Adds what was seen before a tread and beyond its ends."""
+    rotation = stair_rotation(yaw)
+    (front, right), (back, left) = tread.low, tread.high
+    plane = about.patch.plane
+    point, normal = plane.point @ rotation, plane.normal @ rotation
+    lower = about.lower @ rotation
+    x, y = lower[:, 0], lower[:, 1]
+    before = (x < front - BEFORE[0]) & (x > front - BEFORE[1])
+    before &= (y > right + BIN) & (y < left - BIN)
+    off = (lower[before] - point) @ normal
+    # Through open risers one sees what lies below the step before as well.
+    seen = len(off) >= MIN_FACE_POINTS
+    drop = -float(np.percentile(off, 75.0)) if seen else np.nan
+    others = about.others @ rotation
+    beside = others[(others[:, 0] > front) & (others[:, 0] < back), 1]
+    return replace(
+        tread,
+        right=_is_seen_beyond(right - beside),
+        left=_is_seen_beyond(beside - left),
+        drop=drop,
+    )
+
+
+def _is_seen_beyond(past: Vector) -> bool:
+    """Tells whether points of other surfaces, so far past an end, are right beyond it.
 
     Args:
         past: how far each point lies past the end, (n,), m.
-        others: which points are not of the tread, (n,).
     """
-    right_beyond = others & (past > -0.01) & (past < NEAR)
+    right_beyond = (past > -0.01) & (past < NEAR)
     return int(np.count_nonzero(right_beyond)) >= MIN_FACE_POINTS
 
 
@@ -485,14 +415,14 @@ def _face(x: Vector, edge: float) -> tuple[float, bool]:
     return edge, True
 
 
-def _common_slope(treads: list[Tread], local: Vector) -> float:
+def _common_slope(treads: list[Tread], about: list[TreadPoints], yaw: float) -> float:
     """Fits dx/dy of all front faces together, by trimmed least squares."""
+    rotation = stair_rotation(yaw)
     total, weight = 0.0, 0.0
-    for tread in treads:
+    for tread, points in zip(treads, about, strict=True):
         low, high = tread.low, tread.high
-        off = (local - tread.point) @ tread.normal
-        face = (off < -SLAB) & (off > -tread.reach)
-        face &= np.abs(local[:, 0] - low[0]) < 0.05
+        local = points.below @ rotation
+        face = np.abs(local[:, 0] - low[0]) < 0.05
         face &= (local[:, 1] > low[1]) & (local[:, 1] < high[1])
         if np.count_nonzero(face) >= MIN_FACE_POINTS:
             x, y = local[face, 0], local[face, 1]
