@@ -47,6 +47,9 @@ class TiltingLidarParams(Parameters):
     """Greatest range that is measured, m (data sheet)."""
     noise: float = number(0.005, "m", least=0.0, most=1.0)
     """Standard deviation of a range, m; real clouds of this scanner show 4 to 6 mm."""
+    relative_noise: float = number(0.0, least=0.0, most=0.2)
+    """Standard deviation of a range as a part of it, beside `noise`: 0.01 is what the
+    stair paper's Sec. 3 speaks of."""
     tilt_start_deg: float = number(30.0, "deg", least=-180.0, most=180.0)
     """Tilt of the first line, deg, positive down; sees the ground 3 m ahead."""
     tilt_end_deg: float = number(90.0, "deg", least=-180.0, most=180.0)
@@ -119,9 +122,11 @@ def measure(distances: Vector, line: int, params: TiltingLidarParams) -> Vector:
         Ranges, (n,), m; nan below the least range, inf beyond the greatest.
     """
     generator = np.random.default_rng((params.seed, line))
-    ranges: Vector = distances + params.noise * generator.standard_normal(
-        len(distances)
-    )
+    deviation = params.noise
+    if params.relative_noise > 0.0:
+        far = np.where(np.isfinite(distances), distances, 0.0)
+        deviation = np.hypot(deviation, params.relative_noise * far)
+    ranges: Vector = distances + deviation * generator.standard_normal(len(distances))
     ranges[ranges < params.min_range] = np.nan
     ranges[ranges > params.max_range] = np.inf
     return ranges

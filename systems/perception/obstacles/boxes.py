@@ -17,8 +17,12 @@ from footfall.models.values.room import FloorPlane, ObstacleBox
 from footfall.models.values.validation import Parameters, number
 from footfall.models.values.vector import Vector
 from footfall.systems.perception.obstacles.clusters import cluster_points
+from footfall.systems.perception.obstacles.tops import split_by_tops
 from footfall.systems.perception.range_noise import RangeNoise, slide_to_plane
 
+LEAST_WINDOW = 0.03
+"""Heights of tops that differ by less are the same, m; twice the noise where that is
+more."""
 MAX_JUDGES = 400
 """Points that a first look at the angles uses; more would not change the choice."""
 MIN_TOP = 12
@@ -81,11 +85,17 @@ def find_boxes(
     labels = cluster_points(points, params.radius, params.cell)
     order = np.argsort(labels, kind="stable")
     bounds = np.searchsorted(labels[order], np.arange(labels.max(initial=-1) + 2))
-    found = [
-        fit_box(points[order[begin:end]], floor, viewpoint, params)
-        for begin, end in pairwise(bounds)
-        if end - begin >= params.min_points
-    ]
+    found = []
+    for begin, end in pairwise(bounds):
+        if end - begin < params.min_points:
+            continue
+        cluster = points[order[begin:end]]
+        deviation = float(np.median(params.noise.height_deviation(cluster, viewpoint)))
+        window = max(LEAST_WINDOW, 2.0 * deviation)
+        found += [
+            fit_box(cluster[part], floor, viewpoint, params)
+            for part in split_by_tops(cluster, params.cell, window, params.min_points)
+        ]
     found.sort(key=lambda box: (box.center[0], box.center[1]))
     return tuple(
         ObstacleBox(f"box_{i}", box.center, box.yaw, box.size, box.support_count)

@@ -9,8 +9,13 @@ from scipy.ndimage import uniform_filter
 from footfall.models.values.obstacle import Obstacle, ObstacleMap
 from footfall.models.values.validation import Parameters, number
 from footfall.models.values.vector import Vector
-from footfall.systems.perception.obstacles.boxes import even_rectangle, top_height
+from footfall.systems.perception.obstacles.boxes import (
+    LEAST_WINDOW,
+    even_rectangle,
+    top_height,
+)
 from footfall.systems.perception.obstacles.clusters import cluster_points
+from footfall.systems.perception.obstacles.tops import split_by_tops
 
 
 @dataclass(kw_only=True)
@@ -55,9 +60,10 @@ def find_obstacles(
     """Finds the obstacles in a cloud.
 
     The floor is the densest level below the sensor. What stands out of it, point by
-    point or where it is low on the mean of a patch, is grouped; each group's top is its
-    highest dense level, and the least rectangle that the top's points fill is its
-    footprint. Its thin side is what is stepped across.
+    point or where it is low on the mean of a patch, is grouped, and a group split where
+    the heights of its columns jump; each part's top is its highest dense level, and the
+    least rectangle that the top's points fill is its footprint. Its thin side is what
+    is stepped across.
 
     Args:
         points: in W, (n, 3), m.
@@ -77,8 +83,11 @@ def find_obstacles(
     found = []
     for label in range(labels.max(initial=-1) + 1):
         cluster = above[labels == label]
-        if len(cluster) >= params.min_points:
-            found.append(fit_obstacle(cluster, floor, viewpoint, params))
+        if len(cluster) < params.min_points:
+            continue
+        window = max(LEAST_WINDOW, params.top_window)
+        for part in split_by_tops(cluster, params.cell, window, params.min_points):
+            found.append(fit_obstacle(cluster[part], floor, viewpoint, params))
     found.sort(key=lambda item: float(np.linalg.norm(item.center - viewpoint[:2])))
     on_floor = points[np.abs(height) <= params.floor_window, :2]
     outline = shapely.get_coordinates(shapely.MultiPoint(on_floor).convex_hull)

@@ -10,6 +10,7 @@ from itertools import pairwise
 import numpy as np
 import shapely  # type: ignore[import-untyped]
 
+from footfall.models.robots.robot import Sole
 from footfall.models.values.vector import Vector
 from footfall.systems.perception.planes.levels import Sampling
 from footfall.systems.perception.planes.planes import Patch
@@ -66,6 +67,7 @@ def find_flights(
     params: PlaneSegmenterParams,
     viewpoint: Vector | None,
     sampling: Sampling,
+    sole: Sole | None = None,
 ) -> list[Flight]:
     """Finds the flights of stairs among the patches.
 
@@ -75,6 +77,8 @@ def find_flights(
         params: parameters.
         viewpoint: where they were seen from in G, (3,), m.
         sampling: of the cloud.
+        sole: of the robot: a tread that is known from front to back must be as deep
+            as it is wide; None for any.
 
     Returns:
         The flights, those of several treads first; of those the nearest to the
@@ -97,7 +101,7 @@ def find_flights(
             chain = alone[:1]
         left = [number for number in left if number not in chain]
         for part in split_at_turns(patches, chain, limits):
-            flight = _settle(part, patches, cloud, params, viewpoint, sampling)
+            flight = _settle(part, patches, cloud, params, viewpoint, sampling, sole)
             if flight is not None:
                 flights.append(flight)
     if viewpoint is not None:
@@ -157,16 +161,22 @@ def _flights_of_one_size(
     return [Flight(chosen, yaw, treads, floor_below(patches, chosen, limits))]
 
 
-def is_tread(tread: Tread, yaw: float, params: PlaneSegmenterParams) -> bool:
-    """Tells whether a tread, now that its edges are known, is as wide as one and whole.
+def is_tread(
+    tread: Tread, yaw: float, params: PlaneSegmenterParams, sole: Sole | None
+) -> bool:
+    """Tells whether a tread whose edges are known is as large as one and whole.
 
     Args:
         tread: the tread.
         yaw: of its staircase's frame S in G, rad.
         params: limits, and the voxels of which it must cover half its rectangle's.
+        sole: of the robot; None for any.
     """
     depth, width = tread.high - tread.low
-    if width < params.stairs.min_width - RISE_NOISE or depth <= 0.0:
+    least = params.stairs.min_depth
+    if sole is not None and tread.drops and tread.ends:
+        least = max(least, 2.0 * sole.half_width)
+    if width < params.stairs.min_width - RISE_NOISE or depth < least:
         return False
     seen = voxel_area(tread, stair_rotation(yaw), params.voxel_size)
     return bool(seen >= MIN_SEEN * depth * width)
@@ -179,6 +189,7 @@ def _settle(
     params: PlaneSegmenterParams,
     viewpoint: Vector | None,
     sampling: Sampling,
+    sole: Sole | None,
 ) -> Flight | None:
     """Bounds the treads of a chain; None where it is no staircase."""
     limits = params.stairs
@@ -206,7 +217,7 @@ def _settle(
             deeper = not is_something_behind(treads[-1], cloud @ stair_rotation(yaw))
         if deeper or depths[-1] < limits.min_part * usual:
             chosen, treads = chosen[:-1], treads[:-1]
-    good = [is_tread(tread, yaw, params) for tread in treads]
+    good = [is_tread(tread, yaw, params, sole) for tread in treads]
     if not all(good):
         chosen, treads = chosen[: good.index(False)], treads[: good.index(False)]
     if not treads:

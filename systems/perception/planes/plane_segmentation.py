@@ -102,6 +102,7 @@ def make_segmentation(
     viewpoint: Vector | None,
     R_GW: Vector,
     sampling: Sampling = DENSE,
+    sole: Sole | None = None,
 ) -> PlaneSegmentation:
     """Finds the staircase among the patches and turns all of them into W.
 
@@ -112,8 +113,9 @@ def make_segmentation(
         viewpoint: where they were seen from in G, (3,), m.
         R_GW: rotation from W into G, (3, 3).
         sampling: of the cloud.
+        sole: of the robot, which must fit on a tread; None for any.
     """
-    flights = find_flights(patches, cloud, params, viewpoint, sampling)
+    flights = find_flights(patches, cloud, params, viewpoint, sampling, sole)
     segments = {i: patch_segment(patch, R_GW) for i, patch in enumerate(patches)}
     for flight in flights:
         if flight.winding:
@@ -272,7 +274,7 @@ def segment_planes(
     if params.staircase_from == "chain":
         patches = join_parts(patches, params.stairs)
     lap("boundaries")
-    segmentation = make_segmentation(patches, cloud, params, eye, R_GW, sampling)
+    segmentation = make_segmentation(patches, cloud, params, eye, R_GW, sampling, sole)
     if np.any(origin):
         segmentation = shift_segmentation(segmentation, origin)
     lap("staircase")

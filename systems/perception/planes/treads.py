@@ -247,6 +247,7 @@ def _bound(
     # that were drawn together are thin, and at their fronts drawn down.
     lowest = -0.3 * thickness if sampling.drawn else -0.5 * about.noise
     upper = (slab - point) @ normal >= lowest
+    upper |= not upper.any()
     mirrored = np.array([1.0, -1.0])
     right = -_strip_end(on * mirrored, past * mirrored, strip)[0]
     left = _strip_end(on, past, strip)[0]
@@ -271,7 +272,7 @@ def _bound(
         point=point,
         normal=normal,
         points=slab,
-        drops=np.count_nonzero(before > front - 0.25) >= MIN_FACE_POINTS,
+        drops=int(np.count_nonzero(before > front - 0.25)) >= MIN_FACE_POINTS,
         ends=ends,
     )
 
@@ -352,7 +353,8 @@ def _hanging_together(slab: Vector, core: Vector, size: float) -> Vector:
 def _pierced(points: Vector, eye: Vector, point: Vector, normal: Vector) -> Vector:
     """Finds where the rays to points pierce a plane, (k, 2), m, of those that do.
 
-    Noise of ranges moves no point of these.
+    Noise of ranges moves no point of these. From hardly above the plane they tell
+    nothing; then the points stay where they are.
 
     Args:
         points: (n, 3), m.
@@ -362,7 +364,7 @@ def _pierced(points: Vector, eye: Vector, point: Vector, normal: Vector) -> Vect
     """
     height = float((eye - point) @ normal)
     drop = height - (points - point) @ normal
-    if height <= 0.0:
+    if height <= PASSING:
         return points[:, :2]
     good = drop > 0.1 * height
     part = height / drop[good]

@@ -18,6 +18,7 @@ from footfall.models.values.validation import (
     number,
 )
 from footfall.models.values.vector import Vector
+from footfall.systems.perception.obstacles.low_things import raised_points
 from footfall.systems.perception.planes.normals import estimate_normals, orient_normals
 from footfall.systems.perception.planes.planes import fit_plane
 from footfall.systems.perception.range_noise import RangeNoise, slide_to_plane
@@ -25,6 +26,8 @@ from footfall.systems.perception.range_noise import RangeNoise, slide_to_plane
 DOWN: Vector = np.array([0.0, 0.0, -1.0])
 BATCH = 24
 """Hypotheses judged at a time."""
+LOW_RANGE = 2.5
+"""How far beyond the floor's tolerance points may lie that count in a patch's mean."""
 OUTLINE_TOLERANCE = 0.01
 """Corners of the outline that stand out by less are left out, m."""
 
@@ -60,6 +63,10 @@ class FloorParams(Parameters):
     """Standard deviations of the noise within which a point lies on the plane."""
     min_tolerance: float = number(0.01, "m", above=0.0)
     """The least that a point may lie off the plane, m."""
+    patch: float = number(0.1, "m", least=1e-3)
+    """Side of patches whose mean tells what is lower than single points do, m."""
+    low_height: float = number(0.025, "m", above=0.0)
+    """What is lower over the floor on the mean of a patch is the floor, m."""
     max_height: float = number(2.2, "m", above=0.0)
     """What is higher above the floor stands in no one's way, m."""
     noise: RangeNoise = field(default_factory=RangeNoise)
@@ -107,7 +114,16 @@ def extract_floor(
     tolerance = _tolerance(points, viewpoint, params)
     inside = np.abs(offset) <= tolerance
     floor = FloorPlane(best, outline, float(np.mean(inside)))
-    above = points[(offset > tolerance) & (offset <= params.max_height)]
+    stands_out = offset > tolerance
+    stands_out |= raised_points(
+        points,
+        offset,
+        LOW_RANGE * tolerance,
+        params.noise.height_deviation(points, viewpoint),
+        patch=params.patch,
+        least=params.low_height,
+    )
+    above = points[stands_out & (offset <= params.max_height)]
     return FloorEstimate(floor), above
 
 

@@ -74,6 +74,16 @@ def test_noise_has_the_deviation_asked_for() -> None:
     assert abs(np.corrcoef(errors[:-1000], errors[1000:])[0, 1]) < 0.02
 
 
+def test_relative_noise_grows_with_range() -> None:
+    """One part in a hundred of the range, beside the constant part."""
+    params = TiltingLidarParams(noise=0.003, relative_noise=0.01)
+    for distance in (0.5, 4.0):
+        ranges = measure(np.full(20_000, distance), 0, params)
+        expected = np.hypot(0.003, 0.01 * distance)
+        assert np.std(ranges) == pytest.approx(expected, rel=0.03)
+    assert np.isinf(measure(np.full(3, np.inf), 0, params)).all()
+
+
 def test_noise_depends_on_seed_and_line_alone() -> None:
     """The same line of the same seed is the same bit for bit; others are not."""
     distances = np.linspace(1.0, 20.0, 1081)

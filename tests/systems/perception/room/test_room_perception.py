@@ -112,3 +112,46 @@ def test_nothing_seen_yet() -> None:
     """Before the first frame there is no floor."""
     empty = DepthImage(-np.inf, RigidTransform(), 320.0, np.zeros((0, 0)))
     assert perceive(empty).reason == "no floor in view: the cloud has 0 points"
+
+
+def box(x: float, y: float, *size: float) -> BoxParams:
+    """A box along the axes."""
+    return BoxParams(x=x, y=y, size=list(size))
+
+
+CLOSE = {
+    "lower one touches": [box(0.3, 0.2, 0.4, 0.4, 0.4), box(0.7, 0.2, 0.4, 0.4, 0.7)],
+    "lower one 8 cm away": [
+        box(0.3, 0.2, 0.4, 0.4, 0.3),
+        box(0.78, 0.2, 0.4, 0.4, 0.7),
+    ],
+    "as high, 8 cm away": [
+        box(0.3, 0.2, 0.4, 0.4, 0.5),
+        box(0.78, 0.2, 0.4, 0.4, 0.5),
+    ],
+    "sofa": [box(1.0, 0.8, 1.6, 0.6, 0.45), box(1.0, 1.2, 1.6, 0.2, 0.85)],
+    "low": [box(0.5, 0.5, 0.4, 0.3, 0.06), box(-1.0, 0.5, 0.4, 0.4, 0.10)],
+}
+
+
+@pytest.mark.parametrize("name", CLOSE)
+def test_each_thing_is_a_box_of_its_own(name: str) -> None:
+    """Heights within 1 cm, centres within 3 cm, sides within 5 cm."""
+    environment = perceive(take_image(CLOSE[name], CAMERA))
+    assert len(environment.boxes) == len(CLOSE[name])
+    for true in CLOSE[name]:
+        found = min(
+            environment.boxes,
+            key=lambda b: float(np.hypot(b.center[0] - true.x, b.center[1] - true.y)),
+        )
+        assert abs(found.size[2] - true.size[2]) < 0.01
+        assert np.hypot(found.center[0] - true.x, found.center[1] - true.y) < 0.03
+        np.testing.assert_allclose(found.size[:2], true.size[:2], atol=0.05)
+
+
+def test_a_chair_is_as_high_as_its_back() -> None:
+    """The seat of 45 cm, and a back of 90 cm that is 4 cm thick."""
+    chair = [box(-1.0, 0.5, 0.45, 0.45, 0.45), box(-1.0, 0.705, 0.45, 0.04, 0.9)]
+    boxes = perceive(take_image(chair, CAMERA)).boxes
+    heights = sorted(b.size[2] for b in boxes)
+    np.testing.assert_allclose(heights, [0.45, 0.9], atol=0.02)
