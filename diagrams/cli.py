@@ -313,6 +313,23 @@ def segment(
             help="Steepest plane that is kept, in degrees from the horizontal.",
         ),
     ] = SLOPE,
+    viewpoint: Annotated[
+        str | None,
+        typer.Option(
+            metavar="X,Y,Z",
+            help="Where the cloud was seen from, in its frame: edges are found between "
+            "rays, and what is above it is no plane to step on.",
+            show_default=False,
+        ),
+    ] = None,
+    published: Annotated[
+        bool,
+        typer.Option(
+            "--published",
+            help="Find them as the stair paper does: normals, voxels, supervoxels, "
+            "RANSAC over all, the largest cluster of one size.",
+        ),
+    ] = False,
     robot: Annotated[
         str | None,
         typer.Option(
@@ -341,13 +358,16 @@ def segment(
 
         direction = _parse_direction(gravity)
         params = PlaneSegmenterParams(slope_tolerance=_parse_slope(slope))
+        if published:
+            params = params.published()
+        eye = None if viewpoint is None else _parse_viewpoint(viewpoint)
         target = out or Path("segmented") / cloud.stem
         sole = None
         if robot is not None:
             from footfall.diagrams.robots.robot_files import load_robot
 
             sole = load_robot(robot).sole
-        result = segment_file(cloud, direction, target, params, sole)
+        result = segment_file(cloud, direction, target, params, sole, eye)
     found = result.segmentation
     typer.echo(
         f"{result.points} points: {len(found.planes)} planes, "
@@ -469,17 +489,30 @@ def _start_meshcat(host: str) -> "Meshcat":
 
 
 def _parse_direction(text: str) -> "Vector":
+    direction = _parse_vector(text)
+    if direction is None or not direction.any():
+        raise OptionError(
+            f"--gravity: must be three numbers X,Y,Z, not all zero, got {text!r}"
+        )
+    return direction
+
+
+def _parse_viewpoint(text: str) -> "Vector":
+    point = _parse_vector(text)
+    if point is None:
+        raise OptionError(f"--viewpoint: must be three numbers X,Y,Z, got {text!r}")
+    return point
+
+
+def _parse_vector(text: str) -> "Vector | None":
+    """Reads X,Y,Z; None where it is no three finite numbers."""
     import numpy as np
 
     try:
         numbers = np.array([float(part) for part in text.split(",")])
     except ValueError:
-        numbers = np.zeros(0)
-    if numbers.shape != (3,) or not np.isfinite(numbers).all() or not numbers.any():
-        raise OptionError(
-            f"--gravity: must be three numbers X,Y,Z, not all zero, got {text!r}"
-        )
-    return numbers
+        return None
+    return numbers if numbers.shape == (3,) and np.isfinite(numbers).all() else None
 
 
 def _parse_slope(degrees: float) -> float:

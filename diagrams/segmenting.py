@@ -4,7 +4,7 @@ import json
 import os
 import tempfile
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from time import perf_counter
 
@@ -25,6 +25,7 @@ from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterPa
 DRAWN_POINTS = 60_000
 """More points would not change the picture, only slow it."""
 TREAD = "#d9480f"
+OTHER_TREAD = "#f08c00"
 PLANE = "#1971c2"
 GROUND = "#868e96"
 
@@ -51,6 +52,7 @@ def segment_file(
     out: Path,
     params: PlaneSegmenterParams | None = None,
     sole: Sole | None = None,
+    viewpoint: Vector | None = None,
 ) -> SegmentedFile:
     """Segments the cloud in a file and writes `planes.json` and `planes.png`.
 
@@ -63,6 +65,7 @@ def segment_file(
         params: parameters; None for the paper's.
         sole: of the robot, by default of JVRC-1; what is smaller is no plane to stand
             on.
+        viewpoint: where the cloud was seen from, (3,), m; None where it is unknown.
 
     Raises:
         CloudFileError: the file is no cloud.
@@ -76,13 +79,8 @@ def segment_file(
     start = perf_counter()
     points = read_cloud(cloud)
     read = ("read", (perf_counter() - start) * 1e3)
-    found, _ = segment_planes(points, gravity, params, sole)
-    segmentation = PlaneSegmentation(
-        planes=found.planes,
-        staircase=found.staircase,
-        flights=found.flights,
-        times_ms=(read, *found.times_ms),
-    )
+    found, _ = segment_planes(points, gravity, params, sole, viewpoint)
+    segmentation = replace(found, times_ms=(read, *found.times_ms))
     out.mkdir(parents=True, exist_ok=True)
     result = SegmentedFile(
         points=len(points),
@@ -182,6 +180,7 @@ def draw_segmentation(
             if stairs
             else "no stairs"
         )
+        + (f", {len(segmentation.flights)} flights" * (len(segmentation.flights) > 1))
     )
     for axes, (name, view, horizontal, vertical) in zip(
         figure.subplots(1, 2), views, strict=True
@@ -232,12 +231,15 @@ def _framed(drawn: Vector, bounds: Vector) -> tuple[float, float]:
 def _labelled(
     segmentation: PlaneSegmentation,
 ) -> list[tuple[PlaneSegment, str, str]]:
-    """Gives each plane its colour and label; treads are numbered from the lowest."""
-    staircase = segmentation.staircase
+    """Gives each plane its colour and label; treads are numbered from the lowest.
+
+    Those of the second flight are 2.1 and so on.
+    """
+    staircase, others = segmentation.staircase, segmentation.flights[1:]
     drawn = []
     number = 0
     for plane in segmentation.planes:
-        if plane in staircase.treads:
+        if any(plane in flight.treads for flight in (staircase, *others)):
             continue
         if staircase.floor is not None and plane == staircase.floor:
             drawn.append((plane, GROUND, ""))
@@ -246,7 +248,11 @@ def _labelled(
         drawn.append((plane, PLANE, "" if staircase.treads else str(number)))
     for index, tread in enumerate(staircase.treads):
         drawn.append((tread, TREAD, str(index + 1)))
-    return drawn
+    return drawn + [
+        (tread, OTHER_TREAD, f"{flight}.{index}")
+        for flight, other in enumerate(others, start=2)
+        for index, tread in enumerate(other.treads, start=1)
+    ]
 
 
 def _window(

@@ -122,7 +122,7 @@ def measure(distances: Vector, line: int, params: TiltingLidarParams) -> Vector:
         Ranges, (n,), m; nan below the least range, inf beyond the greatest.
     """
     generator = np.random.default_rng((params.seed, line))
-    deviation = params.noise
+    deviation: Vector | float = params.noise
     if params.relative_noise > 0.0:
         far = np.where(np.isfinite(distances), distances, 0.0)
         deviation = np.hypot(deviation, params.relative_noise * far)

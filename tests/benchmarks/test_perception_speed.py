@@ -42,16 +42,51 @@ def sweep() -> Vector:
     return cloud
 
 
-@pytest.mark.parametrize("part", ["stairs", "whole"])
-@pytest.mark.parametrize("order", ["voxels_first", "normals_first"])
-def test_plane_segmentation(benchmark: Any, part: str, order: str) -> None:
-    """Normals before or after the voxels, on about 30,000 and on 260,521 points."""
+GRAVITY = np.array([0.0, 0.0, -9.81])
+WAYS = {
+    "surfaces": PlaneSegmenterParams(),
+    "supervoxels": PlaneSegmenterParams(method="supervoxels"),
+    "published": PlaneSegmenterParams().published(),
+}
+
+
+def frame(part: str) -> Vector:
+    """The sweep, every second line of it, its points in any order, or the stairs."""
     cloud = sweep()
+    if part == "half":
+        return cloud.reshape(-1, 1081, 3)[::2].reshape(-1, 3)
+    if part == "shuffled":
+        return np.random.default_rng(1).permutation(cloud)
     if part == "stairs":
         low, high = np.array([-0.4, -0.6, -0.1]), np.array([1.5, 0.6, 1.0])
-        cloud = cloud[np.all((cloud > low) & (cloud < high), axis=1)]
+        return cloud[np.all((cloud > low) & (cloud < high), axis=1)]
+    return cloud
+
+
+@pytest.mark.parametrize("part", ["whole", "half", "shuffled", "stairs"])
+@pytest.mark.parametrize("way", WAYS)
+def test_plane_segmentation(benchmark: Any, part: str, way: str) -> None:
+    """Each way on 260,521 points, half of them, and about 30,000; stages beside it."""
+    cloud = frame(part)
+    found, _ = benchmark(segment_planes, cloud, GRAVITY, WAYS[way], JVRC1.sole, EYE)
     benchmark.extra_info["points"] = len(cloud)
-    gravity = np.array([0.0, 0.0, -9.81])
-    params = PlaneSegmenterParams(order=order)
-    found, _ = benchmark(segment_planes, cloud, gravity, params, JVRC1.sole, EYE)
-    assert len(found.staircase.treads) == 3
+    benchmark.extra_info["stages_ms"] = {
+        stage: round(milliseconds, 1) for stage, milliseconds in found.times_ms
+    }
+    assert way == "published" or len(found.staircase.treads) == 3
+
+
+@pytest.mark.parametrize("part", ["whole", "half"])
+@pytest.mark.parametrize("voxels", [True, False])
+def test_patches_of_open3d(benchmark: Any, part: str, voxels: bool) -> None:
+    """What Open3D needs for planes alone, with and without voxels of 2 cm."""
+    cloud = frame(part)
+
+    def patches() -> int:
+        points = o3d.geometry.PointCloud(o3d.utility.Vector3dVector(cloud))
+        if voxels:
+            points = points.voxel_down_sample(0.02)
+        points.estimate_normals(o3d.geometry.KDTreeSearchParamKNN(10))
+        return len(points.detect_planar_patches())
+
+    assert benchmark(patches) > 0

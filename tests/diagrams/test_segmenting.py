@@ -48,8 +48,7 @@ def test_json_and_picture_of_a_staircase(tmp_path: Path) -> None:
     assert list(document["times_ms"]) == [
         "read",
         "cloud",
-        "filters",
-        "supervoxels",
+        "clusters",
         "planes",
         "boundaries",
         "staircase",

@@ -47,12 +47,14 @@ from footfall.systems.perception.planes.supervoxel_planes import (
     fit_planes,
 )
 from footfall.systems.perception.planes.supervoxels import Supervoxels
+from footfall.systems.perception.planes.surface_planes import (
+    bound_surfaces,
+    fit_surfaces,
+)
 from footfall.systems.perception.planes.surfaces import (
     Surfaces,
-    bound_surfaces,
     cluster_surfaces,
     cut_columns,
-    fit_surfaces,
     level_noise,
 )
 from footfall.systems.perception.planes.voxels import (

@@ -42,7 +42,9 @@ class Patch:
 
     plane: FittedPlane
     points: Vector
-    """Supporting points, (n, 3), m."""
+    """Supporting points, (n, 3), m; of a large plane those at its rim alone."""
+    support: int
+    """How many points support it."""
     area: float
     """Area of the supporting voxels, m^2."""
     extent: Vector
@@ -211,13 +213,16 @@ def make_patches(
     return tuple(patches)
 
 
-def bound_patch(plane: FittedPlane, support: Vector, area: float) -> Patch | None:
+def bound_patch(
+    plane: FittedPlane, support: Vector, area: float, count: int | None = None
+) -> Patch | None:
     """Bounds a plane's points by hull and rectangle; None where they are in a line.
 
     Args:
         plane: the plane.
         support: its points, (n, 3), m.
         area: of the supporting voxels, m^2.
+        count: how many points support it where `support` is not all of them.
     """
     if len(support) < 3:
         return None
@@ -239,6 +244,7 @@ def bound_patch(plane: FittedPlane, support: Vector, area: float) -> Patch | Non
     return Patch(
         plane=plane,
         points=support,
+        support=len(support) if count is None else count,
         area=area,
         extent=np.array([size[0], size[1], high_z - low_z]),
         center=plane.point + basis @ np.append(middle, 0.0),

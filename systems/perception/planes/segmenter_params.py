@@ -1,6 +1,6 @@
 """Parameters of the plane segmentation (stair paper, Table 1)."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -82,6 +82,16 @@ class PlaneSegmenterParams(Parameters):
                 "seed_resolution: must be at least two voxels, got "
                 f"{self.seed_resolution} m with voxels of {self.voxel_size} m"
             )
+
+    def published(self) -> "PlaneSegmenterParams":
+        """Makes parameters that are these but for the paper's own way in all of it."""
+        return replace(
+            self,
+            method="supervoxels",
+            order="normals_first",
+            planes_from="all",
+            staircase_from="size_cluster",
+        )
 
     def min_voxels(self, sole: Sole) -> int:
         """Computes the number of voxels that a sole covers."""

@@ -37,9 +37,7 @@ def patch_segment(patch: Patch, R_GW: Vector, yaw: float | None = None) -> Plane
         low, high = local.min(axis=0), local.max(axis=0)
         size = (high - low)[:2]
         center = center + axes[:, :2] @ (low + high)[:2] / 2.0
-    return _segment(
-        patch.outline, center, axes, size, patch.area, len(patch.points), R_GW
-    )
+    return _segment(patch.outline, center, axes, size, patch.area, patch.support, R_GW)
 
 
 def tread_segment(
@@ -108,7 +106,7 @@ def winding_segments(
             axes,
             high - low,
             patch.area,
-            len(patch.points),
+            patch.support,
             R_GW,
         )
     return segments

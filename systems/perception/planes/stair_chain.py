@@ -272,7 +272,7 @@ def longest_chain(
     length: dict[int, tuple[int, int]] = {}
     before: dict[int, int | None] = {}
     for upper in candidates:
-        support = len(patches[upper].points)
+        support = patches[upper].support
         length[upper], before[upper] = (1, support), None
         for lower in candidates:
             if lower == upper or lower not in length:

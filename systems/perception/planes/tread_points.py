@@ -212,4 +212,5 @@ def _slab(
     usual = float(np.median(about_cell.ravel()[key[on]])) if on.any() else 0.0
     # Far points of a landing are much farther apart than near ones.
     least = (LONELY / 10.0 if landing else LONELY) * usual
-    return near[on & (number[key] > 0.0) & (about_cell.ravel()[key] >= least)]
+    kept = on & (number[key] > 0.0) & (about_cell.ravel()[key] >= least)
+    return np.asarray(near[kept])

@@ -15,10 +15,15 @@ from scipy import ndimage
 from footfall.models.values.vector import Vector
 from footfall.systems.perception.planes.levels import Sampling
 from footfall.systems.perception.planes.planes import Patch, fit_plane
+from footfall.systems.perception.planes.tread_edges import (
+    MIN_FACE_POINTS,
+    find_face,
+    pierced,
+    strip_end,
+)
 from footfall.systems.perception.planes.tread_points import (
     CELL,
     NEAR,
-    PASSING,
     SLAB,
     TreadPoints,
     points_near,
@@ -27,10 +32,6 @@ from footfall.systems.perception.planes.tread_points import (
 
 BIN = 0.03
 """Width of the strips in which the end of a tread is looked for, m."""
-MAX_SPACING = 0.06
-"""Farthest from a tread's end to the next ray beyond that tells where it ends, m."""
-EDGE_SEEN = 0.2
-"""Part of an end's strips that are enough to tell where it is."""
 OVERHANG = 0.012
 """A tread that ends this far before the face below it overhangs it, m; less may be the
 noise of its own end."""
@@ -42,8 +43,6 @@ LEAST_TURN = 2e-4
 """A smaller improvement is none, rad."""
 SHADOW = 0.25
 """Widest shadow across a tread, m: of a leg."""
-MIN_FACE_POINTS = 25
-"""Fewer points do not make a face."""
 BEHIND = 2.0
 """How far behind a last tread one looks for what its shadow leaves in view, m."""
 BEFORE = (0.04, 0.25)
@@ -125,7 +124,7 @@ def initial_yaw(
     elif viewpoint is not None:
         up = (patches[0].center - viewpoint)[:2]
     else:
-        up = _away_from_face(patches[0], points)
+        up = _away_fromfind_face(patches[0], points)
     axis *= 1.0 if axis @ up >= 0.0 else -1.0
     return float(np.arctan2(axis[1], axis[0]))
 
@@ -136,7 +135,7 @@ def _without(patches: list[Patch], landings: Sequence[bool]) -> list[Patch]:
     return [patch for patch, landing in zip(patches, wide, strict=True) if not landing]
 
 
-def _away_from_face(patch: Patch, points: Vector) -> Vector:
+def _away_fromfind_face(patch: Patch, points: Vector) -> Vector:
     """Up the stairs for a lone tread: its back is hidden, its front face is not."""
     local = (points - patch.center) @ patch.axes
     half = patch.extent[:2] / 2.0
@@ -241,24 +240,24 @@ def _bound(
         eye = viewpoint @ rotation
         run, height = abs(float(np.median(x) - eye[0])), float(eye[2] - point[2])
         slant = run / max(abs(height), 0.1)
-        on = _pierced(slab, eye, point, normal)
-        past = _pierced(about.passing @ rotation, eye, point, normal)
+        on = pierced(slab, eye, point, normal)
+        past = pierced(about.passing @ rotation, eye, point, normal)
     # A face below would draw the front towards the eye by the slab's thickness. Levels
     # that were drawn together are thin, and at their fronts drawn down.
     lowest = -0.3 * thickness if sampling.drawn else -0.5 * about.noise
     upper = (slab - point) @ normal >= lowest
     upper |= not upper.any()
     mirrored = np.array([1.0, -1.0])
-    right = -_strip_end(on * mirrored, past * mirrored, strip)[0]
-    left = _strip_end(on, past, strip)[0]
+    right = -strip_end(on * mirrored, past * mirrored, strip)[0]
+    left = strip_end(on, past, strip)[0]
     on, past = on[:, ::-1], past[:, ::-1]
-    front = -_strip_end(on[upper] * mirrored, past * mirrored, strip)[0]
-    back, ends = _strip_end(on, past, strip)
-    standing, found = _face(_between(about.below @ rotation, right, left), front)
+    front = -strip_end(on[upper] * mirrored, past * mirrored, strip)[0]
+    back, ends = strip_end(on, past, strip)
+    standing, found = find_face(_between(about.below @ rotation, right, left), front)
     # A nosing overhangs its riser: then the tread's own end counts.
     overhang = OVERHANG + 2.0 * slant * max(about.noise, sampling.noise)
     front = standing if found and front > standing - overhang else front
-    standing, found = _face(_between(about.above @ rotation, right, left), back)
+    standing, found = find_face(_between(about.above @ rotation, right, left), back)
     back, ends = (standing, True) if found else (back, ends)
     # The rim is mixed with points of the faces, which would tilt and lift the plane.
     rim = (x > front + 0.02) & (x < back - 0.02) & (y > right) & (y < left)
@@ -280,7 +279,7 @@ def _bound(
 def _between(points: Vector, right: float, left: float) -> Vector:
     """Returns x of the points, (n, 3) in S, between a tread's ends but for a strip."""
     y = points[:, 1]
-    return points[(y > right + BIN) & (y < left - BIN), 0]
+    return np.asarray(points[(y > right + BIN) & (y < left - BIN), 0])
 
 
 def _tell_surroundings(tread: Tread, about: TreadPoints, yaw: float) -> Tread:
@@ -348,73 +347,6 @@ def _hanging_together(slab: Vector, core: Vector, size: float) -> Vector:
         if fits and between <= SHADOW and high[0] - low[0] > 0.5 * (back - front):
             own[number] = True
     return np.asarray(slab[own[of_slab]])
-
-
-def _pierced(points: Vector, eye: Vector, point: Vector, normal: Vector) -> Vector:
-    """Finds where the rays to points pierce a plane, (k, 2), m, of those that do.
-
-    Noise of ranges moves no point of these. From hardly above the plane they tell
-    nothing; then the points stay where they are.
-
-    Args:
-        points: (n, 3), m.
-        eye: where they were seen from, (3,), m.
-        point: a point of the plane, (3,), m.
-        normal: its unit normal, (3,).
-    """
-    height = float((eye - point) @ normal)
-    drop = height - (points - point) @ normal
-    if height <= PASSING:
-        return points[:, :2]
-    good = drop > 0.1 * height
-    part = height / drop[good]
-    return np.asarray(eye[:2] + part[:, None] * (points[good, :2] - eye[:2]))
-
-
-def _strip_end(on: Vector, past: Vector, width: float) -> tuple[float, bool]:
-    """Finds where points end, by strips across, m.
-
-    Where rays pass right beyond, the end is half way to them. Without a viewpoint it
-    is the upper third: strips that something hides end early and draw the median in.
-
-    Args:
-        on: place across and along of the points, (n, 2), m.
-        past: the same of where rays pass by, (k, 2), m.
-        width: of a strip, m.
-
-    Returns:
-        The end, m, and whether rays were seen to pass it.
-    """
-    low = float(np.floor(on[:, 0].min() / width))
-    strip = np.floor(on[:, 0] / width).astype(np.int64) - int(low)
-    ends = np.full(int(strip.max()) + 1, -np.inf)
-    np.maximum.at(ends, strip, on[:, 1])
-    beyond = np.floor(past[:, 0] / width).astype(np.int64) - int(low)
-    inside = (beyond >= 0) & (beyond < len(ends))
-    beyond, along = beyond[inside], past[inside, 1]
-    ahead = along > ends[beyond]
-    first = np.full(len(ends), np.inf)
-    np.minimum.at(first, beyond[ahead], along[ahead])
-    used = np.isfinite(ends)
-    ends, first = ends[used], first[used]
-    seen = first - ends < PASSING
-    if np.count_nonzero(seen) >= max(2.0, EDGE_SEEN * len(ends)):
-        ends, first = ends[seen], first[seen]
-        between = np.where(first - ends < MAX_SPACING, (ends + first) / 2.0, ends)
-        return float(np.median(between)), True
-    # Where the sweep ends askew, what is in view ends at the middle of its strips.
-    askew = len(past) and np.ptp(np.quantile(ends, [0.1, 0.9])) > width
-    return float(np.quantile(ends, 0.5 if askew else 0.6)), False
-
-
-def _face(x: Vector, edge: float) -> tuple[float, bool]:
-    """Finds a vertical face near an edge, and its place."""
-    for reach in (0.05, 0.02):
-        x = x[np.abs(x - edge) < reach]
-        if len(x) < MIN_FACE_POINTS:
-            return edge, False
-        edge = float(np.median(x))
-    return edge, True
 
 
 def _common_slope(treads: list[Tread], about: list[TreadPoints], yaw: float) -> float:
