@@ -16,7 +16,13 @@ from footfall.models.values.vector import Vector
 MIN_COLUMNS = 12
 """Fewer columns of one height are no part."""
 MIN_CORE = 4
-"""Least columns of a lower part whose eight neighbours are of it as well."""
+"""Least columns of a part whose eight neighbours are of it as well, unless none about
+it is taller: a chair's back is thin."""
+MAX_TALLER = 2
+"""Most taller columns about a thin part; more make a side, or a slope, of it."""
+RISING = 0.5
+"""A part that rises by more of the window from end to end is no top: of noise alone it
+would by a tenth."""
 AROUND = np.ones((3, 3), dtype=bool)
 
 
@@ -103,11 +109,22 @@ def _parts(height: Vector, window: float) -> list[NDArray[np.bool]]:
             candidates.append((level, label == number))
     candidates.sort(key=lambda item: -item[0])
     parts: list[NDArray[np.bool]] = []
-    beside = np.zeros(height.shape, dtype=bool)
-    for _, part in candidates:
+    for level, part in candidates:
         core = ndimage.binary_erosion(part, AROUND)
-        free = not np.any(part & beside)
-        if free or np.count_nonzero(core) >= MIN_CORE:
+        if np.count_nonzero(core) < MIN_CORE:
+            around = ndimage.binary_dilation(part, AROUND, iterations=2) & ~part
+            taller = np.isfinite(height) & (height > level + window)
+            if np.count_nonzero(around & taller) > MAX_TALLER:
+                continue
+        if not _slopes(height, part, window):
             parts.append(part)
-            beside |= ndimage.binary_dilation(part, AROUND, iterations=2)
     return parts
+
+
+def _slopes(height: Vector, part: NDArray[np.bool], window: float) -> bool:
+    """Tells whether a part rises from end to end: where the picture cuts a wall off."""
+    cells = np.argwhere(part)
+    z = height[part]
+    design = np.column_stack([cells, np.ones(len(cells))])
+    plane = design @ np.linalg.lstsq(design, z, rcond=None)[0]
+    return bool(np.ptp(plane) > RISING * window)

@@ -1,7 +1,6 @@
 """Telling why a cloud may hold no plane: its scale, spacing, place and gravity."""
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from footfall.models.values.vector import Vector
 from footfall.systems.perception.planes.normals import (
@@ -9,10 +8,16 @@ from footfall.systems.perception.planes.normals import (
     gravity_direction,
 )
 from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterParams
-from footfall.systems.perception.planes.voxels import FARTHEST, usable_points, voxelize
+from footfall.systems.perception.planes.voxels import (
+    FARTHEST,
+    cloud_origin,
+    point_spacing,
+    usable_points,
+    voxelize,
+)
 
 SAMPLE = 2000
-"""Points whose neighbours are looked at; more would tell the same."""
+"""Normals that are compared; more would tell the same."""
 LARGE, VAST = 100.0, 1000.0
 """Clouds of these sizes, m, may be of centimetres, and must be of millimetres."""
 MIN_SURFACE = 0.2
@@ -33,19 +38,6 @@ def describe_cloud(points: Vector) -> str:
         f"{len(points):,} point{'s' * (len(points) != 1)} in {dx} x {dy} x "
         f"{dz} m, typically {point_spacing(points):.2g} m apart"
     )
-
-
-def point_spacing(points: Vector) -> float:
-    """Measures the median distance of points to their nearest neighbours, m.
-
-    Args:
-        points: finite, (n, 3), m.
-    """
-    if len(points) < 2:
-        return 0.0
-    chosen = points[:: -(-len(points) // SAMPLE)]
-    distance = np.asarray(cKDTree(points).query(chosen, k=2)[0])
-    return float(np.median(distance[:, 1]))
 
 
 def doubt_cloud(
@@ -89,7 +81,8 @@ def _doubt_origin(points: Vector) -> tuple[str, ...]:
         return (f"{at_origin:.0%} of the points lie at the origin: rays that missed?",)
     # A cloud of millimetres is far from the origin, too, but not for its size.
     size = float(np.max(np.ptp(points, axis=0)))
-    if len(usable_points(points)) < 0.5 * len(points) and size < np.median(distance):
+    moved = usable_points(points - cloud_origin(points))
+    if len(moved) < 0.5 * len(points) and size < np.median(distance):
         return (
             f"it lies {np.median(distance):,.0f} m from the origin, and what is beyond "
             f"{FARTHEST:,.0f} m is left out: subtract an offset",
@@ -133,7 +126,8 @@ def _doubt_gravity(
     points: Vector, gravity: Vector, params: PlaneSegmenterParams
 ) -> tuple[str, ...]:
     """Doubts about the direction of gravity, by the normals that agree with most."""
-    grid = voxelize(usable_points(points), params.voxel_size)
+    near = usable_points(points - cloud_origin(points))
+    grid = voxelize(near, params.voxel_size)
     if not len(grid.mean):
         return ()
     normals = estimate_normals(grid.mean, params.neighbors, params.threads)

@@ -71,14 +71,13 @@ def cloud_origin(points: Vector) -> Vector:
     return np.round(middle) if far else np.zeros(3)
 
 
-def sparse_spacing(points: Vector, voxel_size: float) -> float:
-    """Measures how far apart the points of a sparse cloud are, m; 0 for a dense one.
+def point_spacing(points: Vector) -> float:
+    """Measures the median distance of points to their nearest neighbours, m.
 
     Repeated points, as of an elevation grid's cells, count once.
 
     Args:
         points: finite, (n, 3), m.
-        voxel_size: v, m.
     """
     if len(points) < 2:
         return 0.0
@@ -88,7 +87,17 @@ def sparse_spacing(points: Vector, voxel_size: float) -> float:
     distance[distance < 1e-6] = np.inf
     nearest = distance.min(axis=1)
     nearest = nearest[np.isfinite(nearest)]
-    spacing = float(np.median(nearest)) if len(nearest) else 0.0
+    return float(np.median(nearest)) if len(nearest) else 0.0
+
+
+def sparse_spacing(points: Vector, voxel_size: float) -> float:
+    """Measures how far apart the points of a sparse cloud are, m; 0 for a dense one.
+
+    Args:
+        points: finite, (n, 3), m.
+        voxel_size: v, m.
+    """
+    spacing = point_spacing(points)
     return spacing if 0.75 * voxel_size < spacing <= MAX_SPACING else 0.0
 
 

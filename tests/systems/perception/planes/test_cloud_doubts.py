@@ -7,9 +7,9 @@ from footfall.models.values.vector import Vector
 from footfall.systems.perception.planes.cloud_doubts import (
     describe_cloud,
     doubt_cloud,
-    point_spacing,
 )
 from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterParams
+from footfall.systems.perception.planes.voxels import point_spacing
 
 PARAMS = PlaneSegmenterParams()
 DOWN = np.array([0.0, 0.0, -9.81])
@@ -39,7 +39,11 @@ def leaning(degrees: float) -> Vector:
         (0.002 * plate() + 5.0, "within 0.004 m of each other: are these metres?"),
         (1000.0 * plate(), "1,950 m across with points 10 m apart: are these millim"),
         (100.0 * plate(), "195 m across with points 1 m apart: are these centimetres"),
-        (plate() + np.array([4e5, 5e6, 0.0]), "5,015,976 m from the origin"),
+        (
+            np.vstack([plate() + np.array([4e5, y, 0.0]) for y in (5e6, 5.003e6)]),
+            "5,0.*m from the origin.*subtract an offset",
+        ),
+        (leaning(90.0) + np.array([4e5, 5e6, 0.0]), "leans by 90 deg"),
         (plate(0.05), r"farther apart \(0.05 m\) than voxels are large \(0.02 m\)"),
         (plate()[:40], "fewer points than a sole has voxels"),
         (leaning(90.0), "leans by 90 deg.*with gravity along -1,0,0"),
