@@ -12,10 +12,6 @@ import numpy as np
 
 from footfall.models.values.vector import Vector
 
-CUBE = 0.08
-"""Edge of the cubes whose thinnest direction tells the noise, m."""
-MIN_CUBE_POINTS = 15
-"""Fewer points in a cube do not tell it."""
 COLUMN = 0.05
 """Side of the columns that a shift looks at, three by three of them, m."""
 SLICE = 0.005
@@ -31,42 +27,9 @@ class Sampling:
     spacing: float = 0.0
     """Between the points of a sparse cloud, m; 0 where they are dense."""
     noise: float = 0.0
-    """Standard deviation across surfaces, m, as the sensor gave it."""
+    """Standard deviation of level surfaces along z, m, as the sensor gave it."""
     drawn: bool = False
     """Whether its level surfaces were drawn together, so that `noise` is gone."""
-
-
-def cloud_noise(points: Vector) -> float:
-    """Estimates the noise of a cloud across its surfaces, m; 0 where it is too sparse.
-
-    It is the median of the least standard deviation in small cubes. Most surfaces are
-    seen at a slant: range noise of 10 mm gives 4.5 mm, of 20 mm 9 mm, of 30 mm 13 mm.
-
-    Args:
-        points: finite, (n, 3), m.
-    """
-    if len(points) < MIN_CUBE_POINTS:
-        return 0.0
-    cells = np.floor(points / CUBE).astype(np.int64)
-    cells -= cells.min(axis=0)
-    span = cells.max(axis=0) + 1
-    keys = (cells[:, 0] * span[1] + cells[:, 1]) * span[2] + cells[:, 2]
-    order = np.argsort(keys, kind="stable")
-    first = np.flatnonzero(np.diff(keys[order], prepend=-1))
-    count = np.diff(first, append=len(keys))
-    local = points[order] - (cells[order] + 0.5) * CUBE
-    mean = np.add.reduceat(local, first, axis=0) / count[:, None]
-    full = np.flatnonzero(count >= MIN_CUBE_POINTS)
-    if not len(full):
-        return 0.0
-    covariance = np.empty((len(full), 3, 3))
-    for i in range(3):
-        for j in range(i, 3):
-            product = np.add.reduceat(local[:, i] * local[:, j], first)[full]
-            value = product / count[full] - mean[full, i] * mean[full, j]
-            covariance[:, i, j] = covariance[:, j, i] = value
-    thinnest = np.linalg.eigvalsh(covariance)[:, 0]
-    return float(np.sqrt(max(np.median(thinnest), 0.0)))
 
 
 def draw_levels_together(points: Vector, reach: float) -> Vector:
