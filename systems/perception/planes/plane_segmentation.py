@@ -232,7 +232,7 @@ def segment_planes(
     eye = None if viewpoint is None else R_GW @ (viewpoint - origin)
     if eye is not None and params.method == "surfaces":
         # Of what is higher than the eye it sees no upper side.
-        cloud = cloud[cloud[:, 2] < eye[2]]
+        cloud = np.compress(cloud[:, 2] < eye[2], cloud, axis=0)
     dense = len(points) > MAX_SPARSE
     spacing = 0.0 if dense else sparse_spacing(cloud, params.voxel_size)
     if spacing > 0.0:

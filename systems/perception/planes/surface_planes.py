@@ -173,7 +173,7 @@ def _local_slopes(mean: Vector, pairs: NDArray[np.int64]) -> tuple[Vector, Vecto
 
 def grow_rims(
     surfaces: Surfaces, planes: tuple[FittedPlane, ...], tolerance: float
-) -> NDArray[np.int64]:
+) -> tuple[NDArray[np.int64], NDArray[np.bool]]:
     """Gives each plane its pieces, and those about them that cross it.
 
     Columns at the rim of a plane hold a face as well, so that they are not level.
@@ -184,14 +184,18 @@ def grow_rims(
         tolerance: most that a plane passes beside a piece, m.
 
     Returns:
-        Plane of each piece, (m,); -1 for none.
+        Plane of each piece, (m,), -1 for none, and which pieces have others of their
+        plane on all four sides, (m,).
     """
     column, total = surfaces.column, len(surfaces.column)
     owner = np.full(total, -1, dtype=np.int64)
+    inside = np.zeros(total, dtype=bool)
     for number in range(len(planes) - 1, -1, -1):
         owner[planes[number].inliers] = number
     for number, plane in enumerate(planes):
-        rim = _rim(column[plane.inliers], surfaces.width)
+        cells, of_piece, inner = _inner_columns(column[plane.inliers], surfaces.width)
+        inside[plane.inliers] = inner[of_piece]
+        rim = _columns_about(cells[~inner], cells, surfaces.width)
         begin = np.searchsorted(column, rim)
         end = np.searchsorted(column, rim, side="right")
         pieces = np.repeat(begin, end - begin)
@@ -205,31 +209,41 @@ def grow_rims(
         )
         pieces = pieces[crossed & (owner[pieces] < 0)]
         owner[pieces] = number
-    return owner
-
-
-def _rim(cells: NDArray[np.int64], width: int) -> NDArray[np.int64]:
-    """Finds the columns that touch some, (k,), which ascend and may be repeated."""
-    cells, inner = _inner_columns(cells, width)
-    shifts = np.array([-1, 0, 1])
-    around = (shifts[:, None] * width + shifts).ravel()
-    outer = np.sort((cells[~inner, None] + around).ravel())
-    outer = outer[np.diff(outer, prepend=-1) > 0]
-    at = np.minimum(np.searchsorted(cells, outer), len(cells) - 1)
-    return np.asarray(outer[cells[at] != outer])
+    return owner, inside
 
 
 def _inner_columns(
-    cells: NDArray[np.int64], width: int
-) -> tuple[NDArray[np.int64], NDArray[np.bool]]:
-    """Lists columns, (k,), once each, and tells which have others on all four sides."""
-    cells = cells[np.diff(cells, prepend=-1) > 0]
+    columns: NDArray[np.int64], width: int
+) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.bool]]:
+    """Lists columns once each and tells which have others of them on all four sides.
+
+    Args:
+        columns: keys, (k,), ascending and maybe repeated.
+        width: by how much those of neighbours along x differ.
+
+    Returns:
+        The columns, (c,), the place of each of the k among them, and the mask, (c,).
+    """
+    new = np.diff(columns, prepend=-1) > 0
+    cells, place = columns[new], np.cumsum(new) - 1
     inner = np.zeros(len(cells), dtype=bool)
     inner[1:-1] = cells[2:] - cells[:-2] == 2
     for shift in (-width, width):
         at = np.minimum(np.searchsorted(cells, cells + shift), len(cells) - 1)
         inner &= cells[at] == cells + shift
-    return cells, inner
+    return cells, place, inner
+
+
+def _columns_about(
+    rim: NDArray[np.int64], cells: NDArray[np.int64], width: int
+) -> NDArray[np.int64]:
+    """Finds the columns that touch some of the rim, (r,), and are none of the cells."""
+    shifts = np.array([-1, 0, 1])
+    around = (shifts[:, None] * width + shifts).ravel()
+    outer = np.sort((rim[:, None] + around).ravel())
+    outer = outer[np.diff(outer, prepend=-1) > 0]
+    at = np.minimum(np.searchsorted(cells, outer), len(cells) - 1)
+    return np.asarray(outer[cells[at] != outer])
 
 
 def bound_surfaces(
@@ -246,7 +260,7 @@ def bound_surfaces(
         points: the cloud, (n, 3), m.
         tolerance: most that a point lies off its plane, m.
     """
-    owner = grow_rims(surfaces, planes, tolerance)
+    owner, inside = grow_rims(surfaces, planes, tolerance)
     patches = []
     for number, plane in enumerate(planes):
         pieces = np.flatnonzero(owner == number)
@@ -257,12 +271,12 @@ def bound_surfaces(
         count = int(surfaces.count[pieces].sum())
         large = len(pieces) > MANY_PIECES
         if large:
-            cells, inner = _inner_columns(surfaces.column[pieces], surfaces.width)
-            inside = cells[inner]
-            pieces = pieces[~np.isin(surfaces.column[pieces], inside, kind="sort")]
-        support = points[surfaces.points_of(pieces)]
+            pieces = pieces[~inside[pieces]]
+        support = np.take(points, surfaces.points_of(pieces), axis=0)
         near = np.abs((support - plane.point) @ plane.normal) <= tolerance
-        patch = bound_patch(plane, support[near], area, count if large else None)
+        patch = bound_patch(
+            plane, np.compress(near, support, axis=0), area, count if large else None
+        )
         if patch is not None:
             patches.append(patch)
     return tuple(patches)

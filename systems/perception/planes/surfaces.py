@@ -104,7 +104,8 @@ def cut_columns(points: Vector, cell: float) -> Surfaces:
     first = np.flatnonzero(new)
     ends = np.append(first, n)
     count = np.diff(ends)
-    sums = [np.add.reduceat(points[:, k][order], first) for k in range(3)]
+    columns = np.ascontiguousarray(points.T)
+    sums = [np.add.reduceat(values[order], first) for values in columns]
     return Surfaces(
         order=order,
         first=ends,

@@ -73,7 +73,7 @@ def within(points: Vector, low: Vector, high: Vector) -> Vector:
     inside = np.ones(len(points), dtype=bool)
     for axis, (least, most) in enumerate(zip(low, high, strict=True)):
         inside &= (points[:, axis] > least) & (points[:, axis] < most)
-    return points[inside]
+    return np.compress(inside, points, axis=0)
 
 
 def points_near(patches: list[Patch], cloud: Vector) -> Vector:
@@ -133,8 +133,8 @@ def _about_tread(
         reach=reach,
         below=near[about & (off < -thickness)],
         above=near[about & (off > thickness)],
-        lower=near[off < -LOWER],
-        others=near[np.abs(off) > thickness],
+        lower=np.compress(off < -LOWER, near, axis=0),
+        others=np.compress(np.abs(off) > thickness, near, axis=0),
         passing=passing,
     )
 
@@ -161,7 +161,7 @@ def _passing(
         low, high = rim.min(axis=0) - margin, rim.max(axis=0) + margin
         near = (drop > height.min()) & (x > low[0]) & (x < high[0])
         near &= (y > low[1]) & (y < high[1])
-        points = cloud[near]
+        points = np.compress(near, cloud, axis=0)
         off = (points - patch.plane.point) @ patch.plane.normal
         chosen.append(points[off < -SLAB])
     return chosen

@@ -370,8 +370,10 @@ def _common_slope(treads: list[Tread], about: list[TreadPoints], yaw: float) -> 
         for _ in range(4):
             if np.count_nonzero(kept) < 4 or np.ptp(y[kept]) < 0.1:
                 break
-            slope, offset = np.polyfit(y[kept], x[kept], 1)
-            residual = np.abs(x - offset - slope * y)
+            y_mean, x_mean = y[kept].mean(), x[kept].mean()
+            off = y[kept] - y_mean
+            slope = float(off @ (x[kept] - x_mean) / max(off @ off, 1e-12))
+            residual = np.abs(x - x_mean - slope * (y - y_mean))
             kept = residual <= max(2.5 * float(np.median(residual)), 0.002)
         spread = float(np.sum((y[kept] - y[kept].mean()) ** 2)) if kept.any() else 0.0
         total += spread * slope
