@@ -61,6 +61,22 @@ def test_json_and_picture_of_a_staircase(tmp_path: Path) -> None:
     assert np.count_nonzero(orange) > 500
 
 
+def test_the_published_way_and_a_viewpoint_find_the_same_treads(
+    tmp_path: Path,
+) -> None:
+    """Supervoxels in the paper's order; edges between rays from where it was seen."""
+    np.savez(tmp_path / "steps.npz", points=steps())
+    params = PlaneSegmenterParams().published()
+    eye = np.array([-0.8, 0.0, 1.4])
+    for given, seen_from in ((params, None), (None, eye)):
+        result = segment_file(
+            tmp_path / "steps.npz", GRAVITY, tmp_path, given, viewpoint=seen_from
+        )
+        treads = result.segmentation.staircase.treads
+        heights = [tread.X_WR.translation()[2] for tread in treads]
+        np.testing.assert_allclose(heights, [0.15, 0.30, 0.45], atol=0.005)
+
+
 def test_cloud_without_planes(tmp_path: Path) -> None:
     """A cloud of noise is no error: no planes, and a picture all the same."""
     cloud = np.random.default_rng(1).uniform(-1.0, 1.0, (500, 3))

@@ -173,26 +173,27 @@ def _local_slopes(mean: Vector, pairs: NDArray[np.int64]) -> tuple[Vector, Vecto
 
 def grow_rims(
     surfaces: Surfaces, planes: tuple[FittedPlane, ...], tolerance: float
-) -> tuple[NDArray[np.int64], NDArray[np.bool]]:
+) -> tuple[list[NDArray[np.int64]], NDArray[np.bool]]:
     """Gives each plane its pieces, and those about them that cross it.
 
-    Columns at the rim of a plane hold a face as well, so that they are not level.
+    Columns at the rim of a plane hold a face as well, so that they are not level; such
+    a piece may cross a plane above and one below.
 
     Args:
         surfaces: the pieces.
-        planes: the planes; of pieces on two the first counts.
+        planes: the planes.
         tolerance: most that a plane passes beside a piece, m.
 
     Returns:
-        Plane of each piece, (m,), -1 for none, and which pieces have others of their
-        plane on all four sides, (m,).
+        The pieces of each plane, ascending, and which pieces have others of their plane
+        on all four sides, (m,).
     """
     column, total = surfaces.column, len(surfaces.column)
-    owner = np.full(total, -1, dtype=np.int64)
-    inside = np.zeros(total, dtype=bool)
-    for number in range(len(planes) - 1, -1, -1):
-        owner[planes[number].inliers] = number
-    for number, plane in enumerate(planes):
+    level, inside = np.zeros(total, dtype=bool), np.zeros(total, dtype=bool)
+    for plane in planes:
+        level[plane.inliers] = True
+    of_planes = []
+    for plane in planes:
         cells, of_piece, inner = _inner_columns(column[plane.inliers], surfaces.width)
         inside[plane.inliers] = inner[of_piece]
         rim = _columns_about(cells[~inner], cells, surfaces.width)
@@ -207,9 +208,9 @@ def grow_rims(
         crossed = (surfaces.low[pieces] <= z + tolerance) & (
             surfaces.high[pieces] >= z - tolerance
         )
-        pieces = pieces[crossed & (owner[pieces] < 0)]
-        owner[pieces] = number
-    return owner, inside
+        pieces = pieces[crossed & ~level[pieces]]
+        of_planes.append(np.sort(np.concatenate([plane.inliers, pieces])))
+    return of_planes, inside
 
 
 def _inner_columns(
@@ -260,12 +261,9 @@ def bound_surfaces(
         points: the cloud, (n, 3), m.
         tolerance: most that a point lies off its plane, m.
     """
-    owner, inside = grow_rims(surfaces, planes, tolerance)
+    of_planes, inside = grow_rims(surfaces, planes, tolerance)
     patches = []
-    for number, plane in enumerate(planes):
-        pieces = np.flatnonzero(owner == number)
-        if not len(pieces):
-            continue
+    for plane, pieces in zip(planes, of_planes, strict=True):
         columns = 1 + np.count_nonzero(np.diff(surfaces.column[pieces]))
         area = columns * surfaces.cell**2 / max(float(plane.normal[2]), 0.1)
         count = int(surfaces.count[pieces].sum())
