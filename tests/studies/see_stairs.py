@@ -92,7 +92,6 @@ class Result:
     invented: int
     cpu: float
     """s."""
-    supervoxels: int
 
 
 def view(case: Case) -> tuple[StairScene, Array]:
@@ -204,7 +203,7 @@ def run(case: Case, params: PlaneSegmenterParams | None = None) -> Result:
     cloud = scan_scene(scene, eye, noise=case.noise, seed=case.pose)
     clean = scan_scene(scene, eye, noise=0.0)
     start = process_time()
-    found, stages = segment_planes(
+    found, _ = segment_planes(
         cloud, GRAVITY, params or PlaneSegmenterParams(), JVRC1.sole, eye
     )
     cpu = process_time() - start
@@ -226,8 +225,7 @@ def run(case: Case, params: PlaneSegmenterParams | None = None) -> Result:
             if number in best
             else Seen(number, found=False)
         )
-    count = len(stages.supervoxels.count) if stages.supervoxels is not None else 0
-    return Result(case, tuple(treads), invented, cpu, count)
+    return Result(case, tuple(treads), invented, cpu)
 
 
 def worst(values: Iterable[float]) -> float:

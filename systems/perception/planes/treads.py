@@ -85,7 +85,8 @@ def stair_rotation(yaw: float) -> Vector:
 def voxel_area(tread: Tread, rotation: Vector, voxel_size: float) -> float:
     """Computes the area of the voxels of a tread's points within its edges, m^2.
 
-    This is a n_i of Eq. 3 of the stair paper, along the tread's plane.
+    It is a n_i of the stair paper's Eq. 3, p = (a / A) sum_i n_i, along the tread's
+    plane; a is a voxel's area, and A, the true one, is not known here.
 
     Args:
         tread: the tread, in S.
@@ -124,7 +125,7 @@ def initial_yaw(
     elif viewpoint is not None:
         up = (patches[0].center - viewpoint)[:2]
     else:
-        up = _away_fromfind_face(patches[0], points)
+        up = _away_from_face(patches[0], points)
     axis *= 1.0 if axis @ up >= 0.0 else -1.0
     return float(np.arctan2(axis[1], axis[0]))
 
@@ -135,7 +136,7 @@ def _without(patches: list[Patch], landings: Sequence[bool]) -> list[Patch]:
     return [patch for patch, landing in zip(patches, wide, strict=True) if not landing]
 
 
-def _away_fromfind_face(patch: Patch, points: Vector) -> Vector:
+def _away_from_face(patch: Patch, points: Vector) -> Vector:
     """Up the stairs for a lone tread: its back is hidden, its front face is not."""
     local = (points - patch.center) @ patch.axes
     half = patch.extent[:2] / 2.0
