@@ -1,7 +1,6 @@
 """The command `footfall`."""
 
 import logging
-import math
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -15,6 +14,11 @@ from footfall.diagrams.cli_errors import (
     bad_input_in_one_line,
     run_ends_in_one_line,
 )
+from footfall.diagrams.cli_options import (
+    parse_direction,
+    parse_slope,
+    parse_viewpoint,
+)
 from footfall.diagrams.interruption import StopSignals
 
 # What simulates takes seconds to import; every command imports what it needs, so that
@@ -23,7 +27,6 @@ if TYPE_CHECKING:
     from pydrake.geometry import Meshcat
 
     from footfall.diagrams.scenario import Scenario
-    from footfall.models.values.vector import Vector
 
 SLOPE = 15.0
 """Of the planes that `segment` keeps, deg; what `PlaneSegmenterParams` has."""
@@ -356,11 +359,11 @@ def segment(
             PlaneSegmenterParams,
         )
 
-        direction = _parse_direction(gravity)
-        params = PlaneSegmenterParams(slope_tolerance=_parse_slope(slope))
+        direction = parse_direction(gravity)
+        params = PlaneSegmenterParams(slope_tolerance=parse_slope(slope))
         if published:
             params = params.published()
-        eye = None if viewpoint is None else _parse_viewpoint(viewpoint)
+        eye = None if viewpoint is None else parse_viewpoint(viewpoint)
         target = out or Path("segmented") / cloud.stem
         sole = None
         if robot is not None:
@@ -486,42 +489,6 @@ def _start_meshcat(host: str) -> "Meshcat":
         return meshcat_at(host)
     except RuntimeError as error:
         raise OptionError(f"--meshcat-host {host}: {error}") from error
-
-
-def _parse_direction(text: str) -> "Vector":
-    direction = _parse_vector(text)
-    if direction is None or not direction.any():
-        raise OptionError(
-            f"--gravity: must be three numbers X,Y,Z, not all zero, got {text!r}"
-        )
-    return direction
-
-
-def _parse_viewpoint(text: str) -> "Vector":
-    point = _parse_vector(text)
-    if point is None:
-        raise OptionError(f"--viewpoint: must be three numbers X,Y,Z, got {text!r}")
-    return point
-
-
-def _parse_vector(text: str) -> "Vector | None":
-    """Reads X,Y,Z; None where it is no three finite numbers."""
-    import numpy as np
-
-    try:
-        numbers = np.array([float(part) for part in text.split(",")])
-    except ValueError:
-        return None
-    return numbers if numbers.shape == (3,) and np.isfinite(numbers).all() else None
-
-
-def _parse_slope(degrees: float) -> float:
-    """Reads a slope in degrees as rad."""
-    if not 0.0 < degrees < 90.0:
-        raise OptionError(
-            f"--slope: must lie between 0 and 90 degrees, got {degrees:g}"
-        )
-    return math.radians(degrees)
 
 
 def _quiet_drake() -> None:
