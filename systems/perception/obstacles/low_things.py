@@ -14,6 +14,27 @@ HALF = 0.5
 """Part of the height about it at which a thing ends: there half of a patch is its."""
 
 
+def patch_sums(
+    flat: NDArray[np.int64], shape: tuple[int, int], weights: Vector | None = None
+) -> Vector:
+    """Adds up points over the patch about each cell, of `CELLS` by `CELLS` cells.
+
+    Args:
+        flat: cell of each point in the flattened grid, (n,).
+        shape: of the grid.
+        weights: what is added, (n,); None counts the points.
+
+    Returns:
+        Sums, of the grid's shape. A running sum leaves rounding behind: a count is
+        whole only when rounded.
+    """
+    total = np.bincount(flat, weights, shape[0] * shape[1]).reshape(shape)
+    window = ndimage.uniform_filter(
+        total.astype(np.float64) * CELLS**2, CELLS, mode="constant"
+    )
+    return np.asarray(window, dtype=np.float64)
+
+
 def raised_points(
     points: Vector,
     height: Vector,
@@ -42,20 +63,15 @@ def raised_points(
         return raised
     index = np.floor(points[:, :2] * (CELLS / patch)).astype(np.int64)
     index -= index.min(axis=0)
-    shape = tuple(int(size) for size in index.max(axis=0) + 1)
+    shape = (int(index[:, 0].max()) + 1, int(index[:, 1].max()) + 1)
     flat = index[:, 0] * shape[1] + index[:, 1]
-
-    def around(chosen: NDArray[np.bool], weights: Vector | None = None) -> Vector:
-        values = None if weights is None else weights[chosen]
-        total = np.bincount(flat[chosen], values, int(np.prod(shape))).reshape(shape)
-        window = ndimage.uniform_filter(total.astype(float), CELLS, mode="constant")
-        return np.asarray(window * CELLS**2)
-
-    # A running sum leaves rounding behind: a count is whole.
-    count = np.maximum(np.rint(around(low)), 1.0)
-    mean = around(low, height) / count
-    noise = np.sqrt(np.maximum(around(low, deviation**2), 0.0)) / count
-    tall = np.rint(around(height > limit)) > 0.0
+    count = np.maximum(np.rint(patch_sums(flat[low], shape)), 1.0)
+    mean = patch_sums(flat[low], shape, height[low]) / count
+    noise = (
+        np.sqrt(np.maximum(patch_sums(flat[low], shape, deviation[low] ** 2), 0.0))
+        / count
+    )
+    tall = np.rint(patch_sums(flat[height > limit], shape)) > 0.0
     mean[tall] = 0.0
     edge = HALF * ndimage.maximum_filter(mean, 2 * CELLS + 1)
     high = mean > np.maximum(np.maximum(least, DEVIATIONS * noise), edge)

@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely  # type: ignore[import-untyped]
-from scipy.ndimage import uniform_filter
 
 from footfall.models.values.obstacle import Obstacle, ObstacleMap
 from footfall.models.values.validation import Parameters, number
@@ -15,6 +14,11 @@ from footfall.systems.perception.obstacles.boxes import (
     top_height,
 )
 from footfall.systems.perception.obstacles.clusters import cluster_points
+from footfall.systems.perception.obstacles.low_things import (
+    CELLS,
+    DEVIATIONS,
+    patch_sums,
+)
 from footfall.systems.perception.obstacles.tops import split_by_tops
 
 
@@ -121,23 +125,14 @@ def low_patches(
     low = np.flatnonzero(np.abs(height) <= params.min_height)
     if not len(low):
         return raised
-    cells = 3
-    index = np.floor(points[low, :2] / (params.patch / cells)).astype(np.int64)
+    index = np.floor(points[low, :2] / (params.patch / CELLS)).astype(np.int64)
     index -= index.min(axis=0)
-    shape = index.max(axis=0) + 1
-    flat = np.ravel_multi_index((index[:, 0], index[:, 1]), shape)
-    sums = [
-        uniform_filter(
-            np.bincount(flat, weights, shape.prod()).reshape(shape) * cells**2,
-            cells,
-            mode="constant",
-        ).ravel()[flat]
-        for weights in (height[low], np.ones(len(low)))
-    ]
-    # A running sum leaves rounding behind: a count is whole.
-    count = np.maximum(np.rint(sums[1]), 1.0)
-    least = np.maximum(params.low_height, 5.0 * params.deviation / np.sqrt(count))
-    raised[low] = sums[0] / count > least
+    shape = (int(index[:, 0].max()) + 1, int(index[:, 1].max()) + 1)
+    flat = index[:, 0] * shape[1] + index[:, 1]
+    total = patch_sums(flat, shape, height[low]).ravel()[flat]
+    count = np.maximum(np.rint(patch_sums(flat, shape).ravel()[flat]), 1.0)
+    least = DEVIATIONS * params.deviation / np.sqrt(count)
+    raised[low] = total / count > np.maximum(params.low_height, least)
     return raised
 
 
