@@ -10,6 +10,7 @@ import numpy as np
 from pydrake.common.yaml import yaml_dump, yaml_load_typed
 
 from footfall.diagrams.fields.commented_yaml import commented_yaml
+from footfall.diagrams.fields.words import expand_words
 from footfall.diagrams.robots.robot_files import ROBOTS, model_of
 from footfall.diagrams.robots.scenario_robot import expand_robot, name_robot
 from footfall.diagrams.schema import (
@@ -39,6 +40,8 @@ from footfall.models.values.validation import (
 from footfall.systems.balance.landing_adaptor import LandingParams
 from footfall.systems.balance.stabilizer import StabilizerParams
 from footfall.systems.balance.zmp_preview import ZmpPreviewParams
+from footfall.systems.estimation.contact_detector import ContactParams
+from footfall.systems.estimation.invariant_ekf import FilterParams
 from footfall.systems.perception.depth_cloud import DepthCloudParams
 from footfall.systems.perception.obstacles.boxes import ObstacleClustererParams
 from footfall.systems.perception.obstacles.obstacles import ObstacleFinderParams
@@ -52,7 +55,10 @@ from footfall.systems.planning.executive.path_executive import PathExecutivePara
 from footfall.systems.planning.footsteps.footstep_params import FootstepPlannerParams
 from footfall.systems.planning.motion.motion_params import MotionPlannerParams
 from footfall.systems.planning.path.path_params import PathPlannerParams
+from footfall.systems.sensing.ankle_force_sensors import AnkleForceParams
 from footfall.systems.sensing.depth_camera import DepthCameraParams
+from footfall.systems.sensing.imu import ImuParams
+from footfall.systems.sensing.joint_encoders import JointEncoderParams
 from footfall.systems.sensing.tilting_lidar import TiltingLidarParams
 from footfall.systems.thinking import ThinkingParams
 from footfall.systems.tracking.whole_body_ik import IkParams
@@ -61,6 +67,11 @@ ONLY_DYNAMIC = ("room_crossing", "stand")
 """Tasks that are not done quasi-static."""
 APPROXIMATIONS = ("lagged", "similar", "sap")
 """What Drake offers of its contact problem that is convex."""
+
+
+ESTIMATED = "estimated"
+STATES = (ESTIMATED, "true")
+"""What the robot may know of itself."""
 
 
 class ScenarioError(ValueError):
@@ -83,6 +94,9 @@ class RobotParams(Parameters):
     """Midpoint of its feet along y of W, m."""
     yaw: float = number(0.0, "rad")
     """Where it faces, about z of W from its x, rad."""
+    state: str = choice(ESTIMATED, STATES)
+    """What controllers and planners know of the robot: "estimated", by its own sensors,
+    or "true", what the simulation knows, without noise and delay, to compare with."""
 
     def model(self) -> RobotModel:
         """Gives the robot's names, sole, postures and gains."""
@@ -112,6 +126,12 @@ class SensorsParams(Parameters):
     """The room's ceiling camera; "room_crossing" only."""
     lidar: TiltingLidarParams = field(default_factory=TiltingLidarParams)
     """The scanner on its head. `simulation.seed` is added to its seed."""
+    imu: ImuParams = field(default_factory=ImuParams)
+    """The inertial unit in its pelvis."""
+    encoders: JointEncoderParams = field(default_factory=JointEncoderParams)
+    """Those of its joints."""
+    ankles: AnkleForceParams = field(default_factory=AnkleForceParams)
+    """The force sensors above its feet."""
 
 
 @dataclass(kw_only=True)
@@ -146,8 +166,12 @@ class ControllerParams(Parameters):
     """The cart-table's preview control. A plan comes into view all at once, at its
     start; with Kajita's 1.6 s what is beyond the preview then shifts the ZMP of the
     CoM's reference by 37 mm for a moment, with 2.4 s by 3 mm."""
+    contact: ContactParams = field(default_factory=ContactParams)
+    """When a foot counts as on the ground, and when it bears."""
+    base_estimator: FilterParams = field(default_factory=FilterParams)
+    """How far the filter of base and feet trusts the sensors."""
     landing: LandingParams = field(default_factory=LandingParams)
-    """When a foot counts as landed."""
+    """How a foot lands."""
     stabilizer: StabilizerParams = field(default_factory=StabilizerParams)
     """Balance feedback."""
     ik: IkParams = field(default_factory=IkParams)
@@ -332,13 +356,11 @@ def load_scenario(name_or_path: str | Path, overrides: Sequence[str] = ()) -> Sc
             raise FieldError("", "must hold the fields of a scenario")
         data = {key: value for key, value in data.items() if str(key)[:1] != "_"}
         data.setdefault("name", stem)
-        name_robot(data, folder)
-        name_models(data, folder)
+        name_parts(data, folder)
         check(data, Scenario)
         for override in overrides:
             applied.append((_override(data, override), override))
-            name_robot(data, Path.cwd())
-            name_models(data, Path.cwd())
+            name_parts(data, Path.cwd())
             check(data, Scenario)
         expand_robot(data, Path(name_or_path).absolute())
         scenario: Scenario = yaml_load_typed(  # type: ignore[no-untyped-call]
@@ -355,6 +377,13 @@ def load_scenario(name_or_path: str | Path, overrides: Sequence[str] = ()) -> Sc
     except RobotError as error:
         raise ScenarioError(f"{label}: robot: {error.one_line}") from None
     return scenario
+
+
+def name_parts(data: Mapping, folder: Path) -> None:
+    """Spells out what a scenario may say in a word: robot, sensors and paths."""
+    name_robot(data, folder)
+    name_models(data, folder)
+    expand_words(data)
 
 
 def name_models(data: Mapping, folder: Path) -> None:

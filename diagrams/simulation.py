@@ -13,6 +13,7 @@ from pydrake.systems.framework import Context, Diagram, EventStatus
 
 from footfall.diagrams.closed_loop.task_diagram import TaskDiagram
 from footfall.diagrams.judge.crossing_judge import obstacle_map_errors
+from footfall.diagrams.judge.estimate_errors import estimate_summary
 from footfall.diagrams.judge.evidence import Evidence, Stop, gather
 from footfall.diagrams.judge.outcome import Judgement, Outcome, judge
 from footfall.diagrams.judge.room_summary import room_perception, stage_ms
@@ -266,11 +267,12 @@ def summarize(task: TaskDiagram, scenario: Scenario, simulated: Simulated) -> Su
     if any(len(frame) for frame in frames.values()):
         evidence = gather(task, simulated.context, simulated.stop, simulated.reason)
         judgement, perception = judge(evidence), _perception(task, evidence)
+        estimate = estimate_summary(evidence.frames, evidence.motion)
     else:
         interrupted = simulated.stop in ("interrupted", "stopped")
         outcome: Outcome = "interrupted" if interrupted else "cut"
         judgement = Judgement(outcome=outcome, reason=simulated.reason)
-        perception = None
+        perception = estimate = None
     simulated_time = simulated.context.get_time()
     return Summary(
         **asdict(judgement),
@@ -280,6 +282,7 @@ def summarize(task: TaskDiagram, scenario: Scenario, simulated: Simulated) -> Su
         wall_time_s=simulated.wall_time,
         real_time_factor=simulated_time / simulated.wall_time or None,
         perception=perception,
+        estimate=estimate,
         timing_us=timing_us(task.diagram),
         replaced=task.replaced,
         versions=installed_versions(),

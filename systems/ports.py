@@ -48,6 +48,23 @@ def declare_state_output(system: LeafSystem, name: str, initial: Vector) -> int:
     return int(state)
 
 
+def read_state(context: Context, index: int) -> Vector:
+    """Reads a group of discrete state, shape (n,)."""
+    value: Vector = context.get_discrete_state(int(index)).value()
+    return value
+
+
+def declare_state(system: LeafSystem, initial: Vector) -> int:
+    """Declares a group of discrete state; gives its index.
+
+    Args:
+        system: whose.
+        initial: in the default context, (n,).
+    """
+    value: Vector = np.array(initial, dtype=np.float64)
+    return int(system.DeclareDiscreteState(value))
+
+
 def set_state(discrete: DiscreteValues, index: int, value: Vector) -> None:
     """Writes a group of discrete state, shape (n,), in an update."""
     discrete.set_value(index, value)

@@ -1,5 +1,7 @@
 """The scanner on the robot's head, and what makes a cloud of its lines."""
 
+from collections.abc import Container
+
 import numpy as np
 from pydrake.math import RigidTransform
 
@@ -11,13 +13,22 @@ from footfall.models.robots.robot_errors import RobotError
 from footfall.models.robots.robot_loader import body_meshes
 from footfall.models.scenes.solids import triangle_mesh
 from footfall.models.values.vector import Vector
-from footfall.systems.perception.scan_assembler import ScanAssembler, box_around
+from footfall.systems.perception.scan_assembler import (
+    ScanAssembler,
+    SelfFilterBox,
+    box_around,
+)
+from footfall.systems.sensing.mounted_point import MountedPoint
 from footfall.systems.sensing.ray_caster import BodyMesh
 from footfall.systems.sensing.tilting_lidar import TiltingLidar
 
 
 def add_lidar(station: StationBuilder, setup: Setup, true: RobotStation) -> None:
-    """Adds `tilting_lidar` and `scan_assembler`, which take `body_poses` and `scan`.
+    """Adds the scanner and what makes a cloud of its lines.
+
+    Parts: `tilting_lidar`, whose rays meet the true bodies, and, of the pose that the
+    robot believes in, `scan_assembler` and `viewpoint`. They take `true_body_poses`,
+    `body_poses` and `scan`.
 
     Args:
         station: of perception.
@@ -32,6 +43,7 @@ def add_lidar(station: StationBuilder, setup: Setup, true: RobotStation) -> None
         problem = f"head_body: must be given, the scanner's, for {scenario.task.kind}"
         raise RobotError(robot.name, [problem])
     head = int(true.plant.GetBodyByName(robot.head_body, true.instance).index())
+    own_head = int(setup.model.GetBodyByName(robot.head_body).index())
     p_HM: Vector = np.array(robot.lidar_position)
     X_HM = RigidTransform(p_HM)
     meshes = [mesh for mesh in robot_meshes(robot, true) if mesh.body_index != head]
@@ -51,15 +63,31 @@ def add_lidar(station: StationBuilder, setup: Setup, true: RobotStation) -> None
         lambda: ScanAssembler(
             setup.params.scan_assembler,
             beam_angles=params.angles(),
-            mount_body=head,
+            mount_body=own_head,
             X_BM=X_HM,
-            own_boxes=[box_around(mesh.body_index, mesh.vertices) for mesh in meshes],
+            own_boxes=own_boxes(setup, without=(robot.head_body,)),
         ),
     )
+    station.add("viewpoint", lambda: MountedPoint(own_head, p_HM))
     for port in ("scan", "sweep"):
         station.connect(f"tilting_lidar.{port}", f"scan_assembler.{port}")
     station.take("scan", "tilting_lidar.enable")
-    station.take("body_poses", "tilting_lidar.body_poses", "scan_assembler.body_poses")
+    station.take("true_body_poses", "tilting_lidar.body_poses")
+    station.take("body_poses", "scan_assembler.body_poses", "viewpoint.body_poses")
+
+
+def own_boxes(setup: Setup, without: Container[str | None] = ()) -> list[SelfFilterBox]:
+    """Gives the boxes about the robot's bodies, by their indices in the robot alone.
+
+    Args:
+        setup: the robot.
+        without: bodies that no sensor sees.
+    """
+    return [
+        box_around(int(setup.model.GetBodyByName(mesh.body).index()), mesh.vertices)
+        for mesh in body_meshes(setup.robot)
+        if mesh.body not in without
+    ]
 
 
 def robot_meshes(robot: RobotModel, true: RobotStation) -> list[BodyMesh]:

@@ -18,8 +18,9 @@ from footfall.systems.planning.whole_body.whole_body_plan import planning_body
 def build_obstacle_perception(setup: Setup, true: RobotStation) -> Station:
     """Builds scan and detection: what the robot knows of the obstacles.
 
-    Takes `body_poses` and `scan`; gives `obstacle_map` and `sweep`, how many sweeps are
-    in it. Parts: `tilting_lidar`, `scan_assembler`, `obstacle_finder`.
+    Takes `true_body_poses`, `body_poses` and `scan`; gives `obstacle_map` and `sweep`,
+    how many sweeps are in it. Parts: `tilting_lidar`, `scan_assembler`, `viewpoint`,
+    `obstacle_finder`.
     """
     params = setup.params
     station = StationBuilder("perception", setup.parts)
@@ -32,7 +33,7 @@ def build_obstacle_perception(setup: Setup, true: RobotStation) -> Station:
     )
     for port in ("cloud", "sweep"):
         station.connect(f"scan_assembler.{port}", f"obstacle_finder.{port}")
-    station.connect("tilting_lidar.viewpoint", "obstacle_finder.viewpoint")
+    station.connect("viewpoint.position", "obstacle_finder.viewpoint")
     for signal in ("obstacle_map", "sweep"):
         station.give(signal, f"obstacle_finder.{signal}")
     station.log(OBSTACLE_SIGNAL)

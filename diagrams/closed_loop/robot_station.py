@@ -13,9 +13,10 @@ from pydrake.multibody.plant import (
 from pydrake.multibody.tree import ModelInstanceIndex
 from pydrake.systems.primitives import ZeroOrderHold
 
+from footfall.diagrams.closed_loop.body_sensors import BODY_SIGNALS, add_body_sensors
 from footfall.diagrams.closed_loop.setup import Setup
 from footfall.diagrams.closed_loop.station_builder import Station, StationBuilder
-from footfall.diagrams.scenario import Scenario
+from footfall.diagrams.scenario import ESTIMATED, Scenario
 from footfall.models.robots.contact_geometry import ContactModel, is_sole
 from footfall.models.robots.robot_alone import robot_weight
 from footfall.models.robots.robot_loader import add_robot
@@ -42,6 +43,8 @@ JUDGED = (
     "plant",
     "scene_graph",
     "box_mover",
+    "kinematic_state",
+    "foot_wrench_sensor",
     "contact_monitor",
     "speed_monitor",
     "wanted_torque",
@@ -54,8 +57,9 @@ class RobotStation:
     """The station of the robot, and the plant and scene in it."""
 
     station: Station
-    """Takes `torque` (na,) and `joint_references`; gives `body_poses`, `foot_poses`,
-    `com`, `com_velocity` and `foot_wrenches`."""
+    """Takes `torque` (na,) and `joint_references`; gives `true_body_poses`, and what
+    the body's sensors tell: `imu`, `joints` and `ankle_wrenches`, or in their place
+    `true_state` and `true_wrenches`."""
     plant: MultibodyPlant
     scene_graph: SceneGraph
     instance: ModelInstanceIndex
@@ -65,11 +69,12 @@ class RobotStation:
 
 
 def build_robot_station(setup: Setup, meshcat: Meshcat | None = None) -> RobotStation:
-    """Builds robot, scene, servos, proprioception, what watches the truth, and pushes.
+    """Builds robot, scene, servos, the body's sensors, what watches the truth, pushes.
 
     Parts: `plant`, `scene_graph`, `torque_hold`, `kinematic_state`,
-    `foot_wrench_sensor`, `wanted_torque`, `contact_monitor`, `speed_monitor`,
-    `pusher` where there are pushes, `box_mover` where there are boxes that move.
+    `foot_wrench_sensor`, `wanted_torque`, `contact_monitor`, `speed_monitor`, the
+    body's sensors (`body_sensors.py`) unless the true state is used, `pusher` where
+    there are pushes, `box_mover` where there are boxes that move.
 
     Args:
         setup: scenario and robot.
@@ -130,6 +135,8 @@ def build_robot_station(setup: Setup, meshcat: Meshcat | None = None) -> RobotSt
         ),
     )
     station.add("speed_monitor", lambda: SpeedMonitor(plant, instance, step))
+    if scenario.robot.state == ESTIMATED:
+        add_body_sensors(station, setup, plant, instance)
     pushes = _pushes(scenario, robot.torso_body, plant, instance)
     if pushes:
         station.add("pusher", lambda: Pusher(pushes))
@@ -156,10 +163,13 @@ def build_robot_station(setup: Setup, meshcat: Meshcat | None = None) -> RobotSt
     station.take(
         "joint_references", f"plant.{desired_state}", "wanted_torque.desired_state"
     )
-    station.give("body_poses", "plant.body_poses")
-    for signal in ("foot_poses", "com", "com_velocity"):
-        station.give(signal, f"kinematic_state.{signal}")
-    station.give("foot_wrenches", "foot_wrench_sensor.foot_wrenches")
+    station.give("true_body_poses", "plant.body_poses")
+    if scenario.robot.state == ESTIMATED:
+        for signal in BODY_SIGNALS:
+            station.give(*signal)
+    else:
+        station.give("true_state", f"plant.{state}")
+        station.give("true_wrenches", "foot_wrench_sensor.foot_wrenches")
     return RobotStation(station.build(), plant, scene_graph, instance, movers)
 
 

@@ -8,7 +8,7 @@ from pydrake.common.value import AbstractValue
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.systems.primitives import ConstantValueSource, ConstantVectorSource
 
-from footfall.diagrams.closed_loop.lidar_scanning import robot_meshes
+from footfall.diagrams.closed_loop.lidar_scanning import own_boxes, robot_meshes
 from footfall.diagrams.closed_loop.robot_station import RobotStation
 from footfall.diagrams.closed_loop.setup import Setup
 from footfall.diagrams.closed_loop.station_builder import Station, StationBuilder
@@ -20,7 +20,6 @@ from footfall.systems.perception.obstacles.obstacle_clusterer import ObstacleClu
 from footfall.systems.perception.room.environment_exchange import EnvironmentExchange
 from footfall.systems.perception.room.environment_xml import load_environment
 from footfall.systems.perception.room.floor_extractor import FloorExtractor
-from footfall.systems.perception.scan_assembler import box_around
 from footfall.systems.sensing.depth_camera import DepthCamera
 from footfall.systems.sensing.ray_caster import BodyMesh
 
@@ -28,9 +27,10 @@ from footfall.systems.sensing.ray_caster import BodyMesh
 def build_room_perception(setup: Setup, true: RobotStation) -> Station:
     """Builds camera and perception, or what the task's file says in their place.
 
-    Takes `body_poses`, unless there is a file; gives `environment` and `frame`, how
-    many frames there were. Parts: `depth_camera`, `depth_cloud`, `floor_extractor`,
-    `obstacle_clusterer`, `environment_exchange`, or `frame` and `environment_file`.
+    Takes `true_body_poses` and `body_poses`, unless there is a file; gives
+    `environment` and `frame`, how many frames there were. Parts: `depth_camera`,
+    `depth_cloud`, `floor_extractor`, `obstacle_clusterer`, `environment_exchange`, or
+    `frame` and `environment_file`.
 
     Raises:
         EnvironmentFileError: the scenario's environment cannot be read.
@@ -42,8 +42,8 @@ def build_room_perception(setup: Setup, true: RobotStation) -> Station:
     params = setup.params
     meshes = robot_meshes(setup.robot, true)
     station.add("depth_camera", lambda: _camera(setup.scenario, true.plant, meshes))
-    own_boxes = [box_around(mesh.body_index, mesh.vertices) for mesh in meshes]
-    station.add("depth_cloud", lambda: DepthCloud(params.depth_cloud, own_boxes))
+    boxes = own_boxes(setup)
+    station.add("depth_cloud", lambda: DepthCloud(params.depth_cloud, boxes))
     station.add("floor_extractor", lambda: FloorExtractor(params.floor))
     station.add("obstacle_clusterer", lambda: ObstacleClusterer(params.obstacles))
     station.add("environment_exchange", EnvironmentExchange)
@@ -61,7 +61,8 @@ def build_room_perception(setup: Setup, true: RobotStation) -> Station:
         ("obstacle_clusterer.environment", "environment_exchange.environment"),
     ):
         station.connect(source, *targets)
-    station.take("body_poses", "depth_camera.body_poses")
+    station.take("true_body_poses", "depth_camera.body_poses")
+    station.take("body_poses", "depth_camera.believed_poses")
     station.give("frame", "depth_camera.frame")
     station.give("environment", "environment_exchange.environment")
     return station.build()

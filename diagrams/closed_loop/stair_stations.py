@@ -24,9 +24,10 @@ from footfall.systems.tracking.whole_body_ik import WholeBodyIk
 def build_stair_perception(setup: Setup, true: RobotStation) -> Station:
     """Builds scan and segmentation: what the robot knows of the staircase.
 
-    Takes `body_poses` and `scan`; gives `staircase` and `sweep`, how many sweeps are in
-    it. Parts: `tilting_lidar`, `scan_assembler`, `gravity`, `plane_segmenter`,
-    `staircase_map`.
+    Takes `true_body_poses`, `body_poses` and `scan`; gives `staircase` and `sweep`, how
+    many sweeps are in it. Clouds are in the world of the robot's estimate, whose z is
+    along gravity as the estimate has it. Parts: `tilting_lidar`, `scan_assembler`,
+    `viewpoint`, `gravity`, `plane_segmenter`, `staircase_map`.
     """
     params = setup.params
     down: Vector = np.array([0.0, 0.0, -1.0])
@@ -42,7 +43,7 @@ def build_stair_perception(setup: Setup, true: RobotStation) -> Station:
     )
     station.connect("scan_assembler.cloud", "plane_segmenter.cloud")
     station.connect("gravity.y0", "plane_segmenter.gravity")
-    station.connect("tilting_lidar.viewpoint", "plane_segmenter.viewpoint")
+    station.connect("viewpoint.position", "plane_segmenter.viewpoint")
     station.connect("plane_segmenter.segmentation", "staircase_map.segmentation")
     station.connect("scan_assembler.sweep", "staircase_map.sweep")
     station.give("staircase", "staircase_map.staircase")

@@ -7,6 +7,7 @@ from typing import NamedTuple
 from pydrake.geometry import Meshcat
 from pydrake.systems.framework import System
 
+from footfall.diagrams.closed_loop.estimation import build_estimation
 from footfall.diagrams.closed_loop.loop_builder import LoopBuilder
 from footfall.diagrams.closed_loop.obstacle_stations import (
     build_obstacle_perception,
@@ -60,9 +61,9 @@ def build_task(
     """Builds the closed loop of a scenario.
 
     It is made of stations, Diagrams that are connected by the signals they exchange:
-    `robot_station`, `perception` (but for a robot that only stands), `planning` and
-    `walking_control`; the functions `build_...` of this folder say which parts each has
-    and which signals it takes and gives.
+    `robot_station`, `estimation`, `perception` (but for a robot that only stands),
+    `planning` and `walking_control`; the functions `build_...` of this folder say which
+    parts each has and which signals it takes and gives.
 
     Args:
         scenario: what to build.
@@ -91,6 +92,7 @@ def build_task(
     true = build_robot_station(setup, meshcat)
     planning, perception = STATIONS[kind]
     makers: dict[str, Callable[[], Station]] = {
+        "estimation": partial(build_estimation, setup),
         "planning": partial(planning, setup),
         "walking_control": partial(build_walking_control, setup),
     }

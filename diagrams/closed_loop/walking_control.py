@@ -24,7 +24,7 @@ def build_walking_control(setup: Setup) -> Station:
     """Builds the controllers that carry out motion plans.
 
     Takes `motion_plan`, and of the robot `foot_poses`, `com`, `com_velocity` and
-    `foot_wrenches`; gives `torque`, `joint_references`, and what is tracked now,
+    `touching`; gives `torque`, `joint_references`, and what is tracked now,
     `foot_references` and `com_reference`. Parts: `motion_player`, `zmp_preview`,
     `com_reference`, `landing_adaptor`, `ik_tracker`, `feedforward`, `stabilizer`,
     `static_stability`.
@@ -35,7 +35,7 @@ def build_walking_control(setup: Setup) -> Station:
     for source, *targets in _WIRES:
         station.connect(source, *targets)
     station.take("motion_plan", "motion_player.motion_plan")
-    station.take("foot_wrenches", "landing_adaptor.foot_wrenches")
+    station.take("touching", "landing_adaptor.touching")
     station.take(
         "foot_poses", "landing_adaptor.foot_poses", "static_stability.sole_poses"
     )

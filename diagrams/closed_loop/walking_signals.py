@@ -1,7 +1,14 @@
 """The signals that every walking task logs."""
 
-from typing import NamedTuple
-
+from footfall.diagrams.closed_loop.estimation_signals import estimation_signals
+from footfall.diagrams.closed_loop.logged_vector import (
+    WRENCH,
+    WRENCH_UNITS,
+    XYZ,
+    LoggedVector,
+    both_feet,
+    state_units,
+)
 from footfall.diagrams.closed_loop.loop_builder import (
     SIGNAL_PERIOD,
     VALUE_PERIOD,
@@ -12,62 +19,44 @@ from footfall.diagrams.closed_loop.setup import Setup
 from footfall.diagrams.signal_names import MOVERS_SIGNAL, POLYGON_SIGNAL, STATE_SIGNAL
 
 _SIDES = ("left", "right")
-_XYZ = ("x", "y", "z")
-_POSE = (*_XYZ, "roll", "pitch", "yaw")
+_POSE = (*XYZ, "roll", "pitch", "yaw")
 _POSE_UNITS = ("m",) * 3 + ("rad",) * 3
-_WRENCH = ("fx", "fy", "fz", "mx", "my", "mz")
-_WRENCH_UNITS = ("N",) * 3 + ("N m",) * 3
 
 
-def _columns(names: tuple[str, ...]) -> tuple[str, ...]:
-    return tuple(f"{side}_{name}" for side in _SIDES for name in names)
-
-
-class LoggedVector(NamedTuple):
-    """A vector port that is logged."""
-
-    name: str
-    """Of the signal."""
-    port: str
-    """"SYSTEM.PORT"."""
-    columns: tuple[str, ...]
-    units: tuple[str, ...] | str
-
-
-_CONTACTS = (*_columns(("contact",)), *_columns(("carrying_length",)))
+_CONTACTS = (*both_feet(("contact",)), *both_feet(("carrying_length",)))
 _CONTACT_UNITS = ("1", "1", "m", "m")
 WALKING = (
     LoggedVector(
         "station.foot_wrenches",
         "foot_wrench_sensor.foot_wrenches",
-        _columns(_WRENCH),
-        _WRENCH_UNITS * 2,
+        both_feet(WRENCH),
+        WRENCH_UNITS * 2,
     ),
-    LoggedVector("balance_state.zmp", "foot_wrench_sensor.zmp", _XYZ, "m"),
+    LoggedVector("balance_state.zmp", "foot_wrench_sensor.zmp", XYZ, "m"),
     LoggedVector(
         "stabilizer.foot_wrenches",
         "stabilizer.foot_wrenches",
-        _columns(_WRENCH),
-        _WRENCH_UNITS * 2,
+        both_feet(WRENCH),
+        WRENCH_UNITS * 2,
     ),
-    LoggedVector("balance_state.com", "kinematic_state.com", _XYZ, "m"),
-    LoggedVector("balance_state.dcm", "stabilizer.dcm", _XYZ[:2], "m"),
+    LoggedVector("balance_state.com", "kinematic_state.com", XYZ, "m"),
+    LoggedVector("balance_state.dcm", "stabilizer.dcm", XYZ[:2], "m"),
     LoggedVector(
         "reference.com",
         "com_reference.com_reference",
-        tuple(f"{name}{axis}" for name in ("", "v", "a") for axis in _XYZ),
+        tuple(f"{name}{axis}" for name in ("", "v", "a") for axis in XYZ),
         ("m",) * 3 + ("m/s",) * 3 + ("m/s^2",) * 3,
     ),
-    LoggedVector("reference.dcm", "stabilizer.dcm_reference", _XYZ[:2], "m"),
-    LoggedVector("reference.zmp", "motion_player.zmp", _XYZ, "m"),
-    LoggedVector("stabilizer.zmp_command", "stabilizer.zmp_command", _XYZ[:2], "m"),
+    LoggedVector("reference.dcm", "stabilizer.dcm_reference", XYZ[:2], "m"),
+    LoggedVector("reference.zmp", "motion_player.zmp", XYZ, "m"),
+    LoggedVector("stabilizer.zmp_command", "stabilizer.zmp_command", XYZ[:2], "m"),
     LoggedVector(
-        "feet.true", "kinematic_state.foot_poses", _columns(_POSE), _POSE_UNITS * 2
+        "feet.true", "kinematic_state.foot_poses", both_feet(_POSE), _POSE_UNITS * 2
     ),
     LoggedVector(
         "feet.wanted",
         "landing_adaptor.foot_references",
-        _columns(_POSE) + _columns(tuple(f"{name}_rate" for name in _POSE)),
+        both_feet(_POSE) + both_feet(tuple(f"{name}_rate" for name in _POSE)),
         _POSE_UNITS * 2 + (("m/s",) * 3 + ("rad/s",) * 3) * 2,
     ),
     LoggedVector(
@@ -85,7 +74,7 @@ WALKING = (
     LoggedVector(
         "contact_monitor.foot_forces",
         "contact_monitor.foot_forces",
-        _columns(("fx", "fy", "fz")),
+        both_feet(("fx", "fy", "fz")),
         "N",
     ),
     LoggedVector(
@@ -113,7 +102,8 @@ def log_walking(loop: LoopBuilder, setup: Setup, true: RobotStation) -> None:
         true: the plant, whose names the columns bear.
     """
     signals = loop.signals
-    for name, port, columns, units in (*_plant_signals(true), *WALKING):
+    estimation = estimation_signals(setup.model)
+    for name, port, columns, units in (*_plant_signals(true), *WALKING, *estimation):
         if (output := loop.find_output(port)) is not None:
             signals.add_vector(name, output, columns, units, SIGNAL_PERIOD)
     loop.log("contact_monitor.touches")
@@ -131,7 +121,7 @@ def _plant_signals(true: RobotStation) -> list[LoggedVector]:
     actuation = plant.get_net_actuation_output_port(instance).get_name()
     names = plant.GetStateNames(instance, False)
     signals = [
-        LoggedVector(STATE_SIGNAL, f"plant.{state}", tuple(names), _state_units(names)),
+        LoggedVector(STATE_SIGNAL, f"plant.{state}", tuple(names), state_units(names)),
         LoggedVector("plant.net_actuation", f"plant.{actuation}", joints, "N m"),
         LoggedVector("station.torque_command", "torque_hold.y", joints, "N m"),
         LoggedVector(
@@ -150,25 +140,3 @@ def _plant_signals(true: RobotStation) -> list[LoggedVector]:
             LoggedVector(MOVERS_SIGNAL, f"plant.{movers}", tuple(names), units)
         )
     return signals
-
-
-def _state_units(names: list[str]) -> tuple[str, ...]:
-    """Units of the plant's state by the suffixes that Drake gives its elements."""
-    units = {
-        "qw": "1",
-        "qx": "1",
-        "qy": "1",
-        "qz": "1",
-        "x": "m",
-        "y": "m",
-        "z": "m",
-        "q": "rad",
-        "w": "rad/s",
-        "wx": "rad/s",
-        "wy": "rad/s",
-        "wz": "rad/s",
-        "vx": "m/s",
-        "vy": "m/s",
-        "vz": "m/s",
-    }
-    return tuple(units[name.rpartition("_")[2]] for name in names)

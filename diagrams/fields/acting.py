@@ -20,7 +20,13 @@ CAMERA: Condition = {**ROOM, "task.environment": (None,)}
 SLOW: Condition = {"task.mode": ("quasi_static",)}
 FAST: Condition = {"task.mode": ("dynamic",)}
 
+BELIEF: Condition = {"robot.state": ("estimated",)}
+
 ACTS: Mapping[str, Condition] = {
+    "sensors.imu": BELIEF,
+    "sensors.encoders": BELIEF,
+    "sensors.ankles": BELIEF,
+    "parameters.base_estimator": BELIEF,
     "sensors.camera": CAMERA,
     "sensors.lidar": SCANS,
     "task.steps_between_scans": STAIRS,

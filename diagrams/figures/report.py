@@ -16,6 +16,7 @@ from footfall.diagrams.figures.crossing_figures import (
     ahead_figure,
     sideways_figure,
 )
+from footfall.diagrams.figures.estimate_figure import estimate_figure, has_estimate
 from footfall.diagrams.figures.figure_parts import (
     COLORS,
     COM,
@@ -63,7 +64,8 @@ def plot_run(folder: Path) -> list[Path]:
     boxes, path, footsteps and CoM from above; `side_view.png` how the feet passed the
     steps; `static_stability.png` where the CoM might rest, as in the stair paper's
     Fig. 7; `feet.png` heights of and forces on the feet; `joints.png` torques and
-    speeds as shares of their limits. What was not logged is left out of them.
+    speeds as shares of their limits; `estimate.png` errors of what the robot believed
+    of itself. What was not logged is left out of them.
 
     Where obstacles were crossed, the obstacle paper's figures are added:
     `fig5_stick_diagram.png`, `fig7_adaptation.png`, `fig8_ahead.png` and
@@ -80,6 +82,8 @@ def plot_run(folder: Path) -> list[Path]:
         "feet": feet_figure,
         "balance": balance_figure,
     }
+    if has_estimate(data):
+        figures["estimate"] = estimate_figure
     if data.treads:
         figures["side_view"] = side_view
     if data.treads and POLYGON_SIGNAL in data.run.value_names:

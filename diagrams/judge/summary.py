@@ -35,6 +35,8 @@ class Summary(Judgement):
     """Simulated time over wall time."""
     perception: Mapping[str, Json] | None = None
     """Frames, ms a frame by stage, errors against the true scene."""
+    estimate: Mapping[str, Json] | None = None
+    """What the robot believed of itself against the truth; None on its true state."""
     timing_us: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     """By system: median, 99th percentile and count of its callbacks, us."""
     replaced: Mapping[str, str] = field(default_factory=dict)

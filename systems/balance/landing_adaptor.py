@@ -27,11 +27,8 @@ class LandingParams(Parameters):
         0.005, "s", least=1e-4, most=0.1, shared="parameters.control_period"
     )
     """Of the controllers, s."""
-    touch_force: float = number(15.0, "N", above=0.0)
-    """Vertical force that counts as ground, N; a sensor's noise and the foot's own
-    inertia stay below."""
     blind_time: float = number(0.3, "s", least=0.0)
-    """After lift-off no force counts for this long, s: the foot still leaves."""
+    """After lift-off no touch counts for this long, s: the foot still leaves."""
     search_speed: float = number(0.10, "m/s", above=0.0)
     """Speed at which a foot that missed the ground goes on down, m/s."""
     search_depth: float = number(0.03, "m", least=0.0)
@@ -66,7 +63,7 @@ def adapt(
     planned: Vector,
     rate: Vector,
     contact: bool,
-    force: float,
+    felt: bool,
     measured: Vector,
     params: LandingParams,
 ) -> tuple[FootState, Vector, Vector]:
@@ -77,7 +74,7 @@ def adapt(
         planned: pose that the plan wants now, (6,).
         rate: its rate, (6,).
         contact: whether the plan wants the foot on the ground.
-        force: measured vertical force on it, N.
+        felt: whether the ground is felt under it.
         measured: pose of the sole, (6,).
         params: see there.
 
@@ -85,7 +82,6 @@ def adapt(
         The state after this tick, the pose to track and its rate, (6,) each.
     """
     offset, sag, held, landed = state.offset, state.sag, state.held, state.landed
-    felt = force > params.touch_force
     lifted_for = 0.0
     if not contact:
         lifted_for = state.lifted_for + params.period
@@ -152,7 +148,7 @@ class LandingAdaptor(LeafSystem):
         - foot_references
         - contacts
         - plan_start
-        - foot_wrenches
+        - touching
         - foot_poses
         output_ports:
         - foot_references
@@ -164,8 +160,7 @@ class LandingAdaptor(LeafSystem):
       each sole that carries, (4,), -, -, m, m.
     - `plan_start`: start time of the plan, (1,), s; when it changes the new plan is
       taken to begin at the references of this system.
-    - `foot_wrenches`: measured, left then right, force and moment at F in F, (12,), N
-      and Nm.
+    - `touching`: whether the ground is felt under left and right, 0 or 1, (2,).
     - `foot_poses`: measured sole frames X_WF, left then right, (12,), m and rad.
     - `foot_references` (output): like the input, adapted; of the last tick.
     - `contacts` (output): like the input, but a foot counts when it has landed.
@@ -196,7 +191,7 @@ class LandingAdaptor(LeafSystem):
         self._references = self.DeclareVectorInputPort("foot_references", 24)
         self._contacts = self.DeclareVectorInputPort("contacts", 4)
         self._plan_start = self.DeclareVectorInputPort("plan_start", 1)
-        self._wrenches = self.DeclareVectorInputPort("foot_wrenches", 12)
+        self._touching = self.DeclareVectorInputPort("touching", 2)
         self._poses = self.DeclareVectorInputPort("foot_poses", 12)
         self.DeclarePeriodicDiscreteUpdateEvent(
             period_sec=params.period, offset_sec=0.0, update=timed(self, self._update)
@@ -207,7 +202,7 @@ class LandingAdaptor(LeafSystem):
         planned, rates = eval_vector(self._references, context).reshape(2, 2, 6)
         contacts = eval_vector(self._contacts, context)
         start = eval_vector(self._plan_start, context)
-        wrenches = eval_vector(self._wrenches, context).reshape(2, 6)
+        touching = eval_vector(self._touching, context)
         measured = eval_vector(self._poses, context).reshape(2, 6)
         states, poses, speeds, landed = [], [], [], []
         for i in range(2):
@@ -219,7 +214,7 @@ class LandingAdaptor(LeafSystem):
                 planned[i],
                 rates[i],
                 contacts[i] > 0.5,
-                wrenches[i, 2],
+                touching[i] > 0.5,
                 measured[i],
                 self._params,
             )

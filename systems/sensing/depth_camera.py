@@ -128,6 +128,8 @@ class _Shutter(Value):
     """How many were taken."""
     body_poses: tuple[RigidTransform, ...] = ()
     """X_WB of every body then."""
+    believed: tuple[RigidTransform, ...] = ()
+    """The same as the robot believes them."""
 
 
 class DepthCamera(LeafSystem):
@@ -141,15 +143,19 @@ class DepthCamera(LeafSystem):
         name: DepthCamera
         input_ports:
         - body_poses
+        - believed_poses
         output_ports:
         - depth_image
         - frame_body_poses
         - frame
 
     - `body_poses`: X_WB of every body, list[RigidTransform], as MultibodyPlant has it.
+    - `believed_poses`: the same as the robot believes them, by indices of its own,
+      list[RigidTransform]; need not be connected.
     - `depth_image`: the latest frame, DepthImage; before the first its time is -inf
       and it has no pixels.
-    - `frame_body_poses`: X_WB of every body when that was taken, list[RigidTransform].
+    - `frame_body_poses`: `believed_poses` when that was taken, list[RigidTransform];
+      `body_poses` where those are not connected.
     - `frame`: how many frames were taken, (1,), no unit.
     """
 
@@ -179,6 +185,9 @@ class DepthCamera(LeafSystem):
         self._body_poses = self.DeclareAbstractInputPort(
             "body_poses", AbstractValue.Make([RigidTransform()])
         )
+        self._believed = self.DeclareAbstractInputPort(
+            "believed_poses", AbstractValue.Make([RigidTransform()])
+        )
         self._state = HeldValue(self, _Shutter())
         ticket = {self._state.ticket}
         calc_image: Callable[..., None] = timed(self, self._calc_depth_image)
@@ -204,10 +213,15 @@ class DepthCamera(LeafSystem):
 
     def _update(self, context: Context, state: State) -> None:
         body_poses = eval_abstract(self._body_poses, context, list)
-        # Copied, since Drake reuses the list that the port holds.
-        poses = tuple(RigidTransform(pose) for pose in body_poses)
+        believed = body_poses
+        if self._believed.HasValue(context):
+            believed = eval_abstract(self._believed, context, list)
+        # Copied, since Drake reuses the lists that the ports hold.
         shutter = _Shutter(
-            context.get_time(), self._state.get(context).frames + 1, poses
+            context.get_time(),
+            self._state.get(context).frames + 1,
+            tuple(RigidTransform(pose) for pose in body_poses),
+            tuple(RigidTransform(pose) for pose in believed),
         )
         self._state.set(state, shutter)
 
@@ -238,7 +252,7 @@ class DepthCamera(LeafSystem):
         )
 
     def _calc_frame_body_poses(self, context: Context, poses: AbstractValue) -> None:
-        poses.set_value(list(self._state.get(context).body_poses))
+        poses.set_value(list(self._state.get(context).believed))
 
     def _calc_frame(self, context: Context, frame: BasicVector) -> None:
         set_vector(frame, np.array([self._state.get(context).frames], dtype=np.float64))

@@ -33,6 +33,13 @@ from footfall.systems.balance.zmp_preview import ZmpPreviewParams
 from footfall.systems.balance.zmp_preview_controller import ZmpPreviewController
 from footfall.systems.disturbance.box_mover import BoxMover
 from footfall.systems.disturbance.pusher import Pusher
+from footfall.systems.estimation.base_estimator import BaseEstimator
+from footfall.systems.estimation.contact_detector import (
+    ContactDetector,
+    ContactParams,
+    SoleSize,
+)
+from footfall.systems.estimation.invariant_ekf import FilterParams
 from footfall.systems.perception.depth_cloud import DepthCloud, DepthCloudParams
 from footfall.systems.perception.obstacles.obstacle_clusterer import ObstacleClusterer
 from footfall.systems.perception.obstacles.obstacle_finder import ObstacleFinder
@@ -61,15 +68,24 @@ from footfall.systems.planning.motion.motion_task import Walker
 from footfall.systems.planning.path.path_footstep_planner import PathFootstepPlanner
 from footfall.systems.planning.path.path_planner import PathPlanner
 from footfall.systems.planning.whole_body.whole_body_plan import planning_body
+from footfall.systems.sensing.ankle_force_sensors import (
+    AnkleForceParams,
+    AnkleForceSensors,
+)
+from footfall.systems.sensing.body_poses import BodyPoses
 from footfall.systems.sensing.contact_monitor import ContactMonitor
 from footfall.systems.sensing.depth_camera import DepthCamera, DepthCameraParams
 from footfall.systems.sensing.foot_wrench_sensor import FootWrenchSensor
+from footfall.systems.sensing.imu import Imu, ImuParams
+from footfall.systems.sensing.joint_encoders import JointEncoderParams, JointEncoders
 from footfall.systems.sensing.kinematic_state import KinematicState
+from footfall.systems.sensing.mounted_point import MountedPoint
 from footfall.systems.sensing.robot_contacts import WatchedGeometry
 from footfall.systems.sensing.speed_monitor import SpeedMonitor
 from footfall.systems.sensing.tilting_lidar import TiltingLidar, TiltingLidarParams
 from footfall.systems.sensing.wanted_torque import WantedTorque
 from footfall.systems.signal_log import SignalLog
+from footfall.systems.signal_playback import SignalPlayback
 from footfall.systems.tracking.ik_tracker import IkTracker
 from footfall.systems.tracking.whole_body_feedforward import WholeBodyFeedforward
 from footfall.systems.tracking.whole_body_ik import IkParams
@@ -111,8 +127,22 @@ def standing_plan() -> MotionPlan:
 
 
 FACTORIES: dict[type[LeafSystem], Callable[[], LeafSystem]] = {
+    AnkleForceSensors: lambda: AnkleForceSensors(
+        AnkleForceParams(), 0.0025, *robot_alone(), JVRC1
+    ),
+    BaseEstimator: lambda: BaseEstimator(
+        _plant(),
+        JVRC1,
+        FilterParams(),
+        _plant().GetPositions(_plant().CreateDefaultContext()),
+        0.005,
+    ),
+    BodyPoses: lambda: BodyPoses(_plant()),
     BoxMover: lambda: BoxMover([]),
     ComReference: ComReference,
+    ContactDetector: lambda: ContactDetector(
+        ContactParams(), SoleSize(0.075, 0.15, 0.042)
+    ),
     ContactMonitor: lambda: ContactMonitor(
         WatchedGeometry((), (), (), frozenset(), {}, {}), 0.002, 600.0
     ),
@@ -131,14 +161,19 @@ FACTORIES: dict[type[LeafSystem], Callable[[], LeafSystem]] = {
     FloorExtractor: FloorExtractor,
     FootWrenchSensor: lambda: FootWrenchSensor(*robot_alone(), JVRC1),
     FootstepPlanner: lambda: FootstepPlanner(FootstepPlannerParams(), JVRC1.sole),
+    Imu: lambda: Imu(ImuParams(), 0.0025),
     IkTracker: lambda: IkTracker(
         _plant(), JVRC1, IkParams(), np.zeros(_plant().num_positions())
+    ),
+    JointEncoders: lambda: JointEncoders(
+        JointEncoderParams(), 0.0025, ["knee"], np.zeros(1), 15
     ),
     KinematicState: lambda: KinematicState(_plant(), JVRC1),
     LandingAdaptor: lambda: LandingAdaptor(LandingParams(), np.zeros(12)),
     MotionPlanner: lambda: MotionPlanner(
         Walker(MotionPlannerParams(), ZmpPreviewParams(), JVRC1)
     ),
+    MountedPoint: lambda: MountedPoint(1, np.zeros(3)),
     MotionPlayer: lambda: MotionPlayer(320),
     ObstacleClusterer: ObstacleClusterer,
     ObstacleFinder: ObstacleFinder,
@@ -158,6 +193,7 @@ FACTORIES: dict[type[LeafSystem], Callable[[], LeafSystem]] = {
         X_BM=RigidTransform(),
     ),
     SignalLog: lambda: SignalLog(0.1),
+    SignalPlayback: lambda: SignalPlayback(np.zeros(1), np.zeros((1, 3))),
     SpeedMonitor: lambda: SpeedMonitor(*robot_alone(), 0.0025),
     Stabilizer: lambda: Stabilizer(StabilizerParams(), JVRC1.sole, 62.4),
     StaircaseMap: StaircaseMap,

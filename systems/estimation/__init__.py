@@ -1,0 +1,1 @@
+"""What the robot believes of itself: contacts, base, and the body that follows."""

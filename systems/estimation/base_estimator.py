@@ -1,0 +1,346 @@
+"""The base estimator as a System: sensors in, the robot's whole state out."""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from pydrake.math import RotationMatrix
+from pydrake.multibody.plant import MultibodyPlant
+from pydrake.systems.framework import (
+    BasicVector,
+    Context,
+    DiscreteStateIndex,
+    DiscreteValues,
+    LeafSystem,
+)
+
+from footfall.models.robots.robot import RobotModel
+from footfall.models.values.feet import FEET
+from footfall.models.values.vector import Vector
+from footfall.systems.cached import declare_cached
+from footfall.systems.estimation.invariant_ekf import (
+    BaseEstimate,
+    FilterParams,
+    FootPose,
+    Rows,
+    hold_feet,
+    initial_estimate,
+    propagate,
+)
+from footfall.systems.estimation.rotations import exp_rotation, log_rotation, skew
+from footfall.systems.plant_cache import declare_scratch_context
+from footfall.systems.ports import (
+    declare_state,
+    eval_vector,
+    read_state,
+    set_state,
+    set_vector,
+)
+from footfall.systems.timing import timed
+
+SILENCE = 0.02
+"""So long, s, an IMU may say nothing before it is taken for dead."""
+BLIND_TURN = 1.0
+"""How fast a base turns of which no IMU tells, rad/s per root Hz."""
+BLIND_ACCELERATION = 3.0
+"""How it is pulled, m/s^2 per root Hz."""
+_FIELDS = (
+    ("R_WB", (3, 3)),
+    ("v_WB", (3,)),
+    ("p_WB", (3,)),
+    ("p_WF", (2, 3)),
+    ("R_WF", (2, 3, 3)),
+    ("gyroscope_bias", (3,)),
+    ("accelerometer_bias", (3,)),
+    ("covariance", (27, 27)),
+)
+
+
+def pack(estimate: BaseEstimate) -> Vector:
+    """Lays an estimate out as numbers, the discrete state of the System."""
+    flags = [*estimate.standing, *estimate.slips]
+    parts = [getattr(estimate, name).ravel() for name, _ in _FIELDS]
+    return np.concatenate([flags, *parts], dtype=np.float64)
+
+
+def unpack(values: Vector) -> BaseEstimate:
+    """Reads what `pack` wrote."""
+    parts, start = {}, 4
+    for name, shape in _FIELDS:
+        end = start + int(np.prod(shape))
+        parts[name] = values[start:end].reshape(shape)
+        start = end
+    left, right, slips_left, slips_right = values[:4].tolist()
+    return BaseEstimate(
+        standing=(left > 0.5, right > 0.5),
+        slips=(int(slips_left), int(slips_right)),
+        **parts,
+    )
+
+
+def deviations(estimate: BaseEstimate) -> Vector:
+    """Standard deviations of orientation, velocity and position, about W's axes, (9,).
+
+    The filter's error of velocity and position turns about W's origin with that of the
+    orientation; here each is what it is at the base: rad, m/s, m.
+    """
+    P = estimate.covariance
+    variances = np.empty(9)
+    variances[:3] = np.diag(P[Rows.R, Rows.R])
+    for rows, at in ((Rows.v, estimate.v_WB), (Rows.p, estimate.p_WB)):
+        lever = skew(at)
+        cross = lever @ P[Rows.R, rows]
+        total = P[rows, rows] - cross - cross.T + lever @ P[Rows.R, Rows.R] @ lever.T
+        variances[rows] = np.diag(total)
+    return np.sqrt(np.maximum(variances, 0.0))
+
+
+class _Now(NamedTuple):
+    """The estimate after all that has arrived."""
+
+    estimate: BaseEstimate
+    integrals: Vector
+    """Of the IMU, up to which it goes, (7,)."""
+    angular_rate: Vector
+    """Mean since the estimate before, in B, without bias, (3,), rad/s."""
+    acceleration: Vector
+    """Mean since the estimate before, of the base in W, (3,), m/s^2."""
+    silent: float = 0.0
+    """For how long the IMU has said nothing, s."""
+    was_silent: float = 0.0
+    """For how long the filter went on without it, s."""
+
+
+class BaseEstimator(LeafSystem):
+    """Tells pose and velocity of the base, and with the encoders the robot's state.
+
+    It takes in whatever has arrived when it is asked, and keeps it once a tick; asked
+    between ticks it says what it knows by then.
+
+    .. pydrake_system::
+
+        name: BaseEstimator
+        input_ports:
+        - imu
+        - joints
+        - bearing
+        output_ports:
+        - state
+        - deviation
+        - biases
+        - faults
+
+    - `imu`: time of the latest sample, s, then integrals of angular rate, rad, and
+      specific force, m/s, of a unit at the base's origin along its axes, (7,).
+    - `joints`: measured positions, then velocities of the joints in the order of the
+      state, (2 n,), rad, rad/s.
+    - `bearing`: left and right foot bears load and does not move, 0 or 1, (2,).
+    - `state`: estimated positions and velocities of the robot, `lead` after the latest
+      sample, (nq + nv,).
+    - `deviation`: standard deviations about W's axes of the base's orientation, rad,
+      velocity, m/s, and position, m, (9,).
+    - `biases`: of the gyroscope, rad/s, and of the accelerometer, m/s^2, (6,).
+    - `faults`: how often the left and the right foot was found away from where it
+      stood, no unit, and for how long in all there was no IMU, s, (3,).
+
+    An IMU that says nothing for `SILENCE` is taken for dead: from then on the feet
+    alone carry the estimate, as those of a base that moves on as it moved, known ill.
+    """
+
+    def __init__(
+        self,
+        plant: MultibodyPlant,
+        robot: RobotModel,
+        params: FilterParams,
+        positions: Vector,
+        period: float,
+    ) -> None:
+        """Declares the ports.
+
+        Args:
+            plant: the robot alone, finalised.
+            robot: its names.
+            params: noise of the filter's model.
+            positions: q where the robot begins, which says where W is, (nq,).
+            period: between two ticks, s.
+
+        Raises:
+            ValueError: a parameter is out of range.
+        """
+        super().__init__()
+        params.validate()
+        self._plant, self._params, self._period = plant, params, period
+        self._blind = replace(
+            params, gyroscope=BLIND_TURN, accelerometer=BLIND_ACCELERATION
+        )
+        self._base = plant.GetBodyByName(robot.base_body)
+        self._feet = [plant.GetBodyByName(robot.foot_bodies[foot]) for foot in FEET]
+        self._p_AF: Vector = np.array([0.0, 0.0, -robot.sole.ankle_height])
+        self._gravity = float(np.linalg.norm(plant.gravity_field().gravity_vector()))
+        self._joints_count = plant.num_positions() - 7
+        self._level = np.concatenate([[1.0], np.zeros(6)])
+        R_WB = _rotation(positions[:4])
+        first = initial_estimate(R_WB, positions[4:7], params)
+        self._memory = declare_state(self, pack(first))
+        self._read = declare_state(self, np.zeros(15))
+        self._imu = self.DeclareVectorInputPort("imu", 7)
+        self._joints = self.DeclareVectorInputPort("joints", 2 * self._joints_count)
+        self._bearing = self.DeclareVectorInputPort("bearing", 2)
+        self._scratch = declare_scratch_context(self, plant)
+        inputs = {
+            self._imu.ticket(),
+            self._joints.ticket(),
+            self._bearing.ticket(),
+            self.discrete_state_ticket(DiscreteStateIndex(self._memory)),
+            self.discrete_state_ticket(DiscreteStateIndex(self._read)),
+        }
+        self._now = declare_cached(self, "now", self._calc_now, inputs)
+        for name, size, calc in (
+            ("state", plant.num_multibody_states(), self._calc_state),
+            ("deviation", 9, self._calc_deviation),
+            ("biases", 6, self._calc_biases),
+            ("faults", 3, self._calc_faults),
+        ):
+            self.DeclareVectorOutputPort(
+                name, size, timed(self, calc), prerequisites_of_calc=inputs
+            )
+        self.DeclarePeriodicDiscreteUpdateEvent(period, 0.0, timed(self, self._update))
+
+    def _calc_now(self, context: Context) -> _Now:
+        read = read_state(context, self._read)
+        estimate = unpack(read_state(context, self._memory))
+        integrals = eval_vector(self._imu, context)
+        duration = integrals[0] - read[0]
+        silent, was_silent = read[13:].tolist()
+        if duration <= 0.0:
+            if silent < SILENCE:
+                return _Now(
+                    estimate, integrals, read[7:10], read[10:13], silent, was_silent
+                )
+            return self._without_imu(context, estimate, integrals, silent, was_silent)
+        rate, force = ((integrals[1:] - read[1:7]) / duration).reshape(2, 3)
+        speeds = eval_vector(self._joints, context)[self._joints_count :]
+        estimate = propagate(
+            estimate,
+            rate,
+            force,
+            duration,
+            self._params,
+            self._gravity,
+            at_rest=bool(np.abs(speeds).max() < self._params.rest_speed),
+        )
+        left, right = eval_vector(self._bearing, context).tolist()
+        estimate = hold_feet(
+            estimate,
+            self._foot_poses(context),
+            (left > 0.5, right > 0.5),
+            self._params,
+        )
+        acceleration = estimate.R_WB @ (force - estimate.accelerometer_bias)
+        acceleration[2] -= self._gravity
+        rate = rate - estimate.gyroscope_bias
+        return _Now(estimate, integrals, rate, acceleration, 0.0, was_silent)
+
+    def _without_imu(
+        self,
+        context: Context,
+        estimate: BaseEstimate,
+        integrals: Vector,
+        silent: float,
+        was_silent: float,
+    ) -> _Now:
+        """Goes on for a tick by the feet alone."""
+        before = estimate.R_WB
+        hanging = estimate.R_WB.T @ np.array([0.0, 0.0, self._gravity])
+        estimate = propagate(
+            estimate,
+            estimate.gyroscope_bias,
+            hanging + estimate.accelerometer_bias,
+            self._period,
+            self._blind,
+            self._gravity,
+        )
+        left, right = eval_vector(self._bearing, context).tolist()
+        estimate = hold_feet(
+            estimate,
+            self._foot_poses(context),
+            (left > 0.5, right > 0.5),
+            self._params,
+        )
+        rate = log_rotation(before.T @ estimate.R_WB) / self._period
+        return _Now(
+            estimate, integrals, rate, np.zeros(3), silent, was_silent + self._period
+        )
+
+    def _foot_poses(self, context: Context) -> tuple[FootPose, FootPose]:
+        scratch = self._scratch(context)
+        joints = eval_vector(self._joints, context)[: self._joints_count]
+        q: Vector = np.concatenate([self._level, joints])
+        self._plant.SetPositions(scratch, q)
+        left, right = (
+            _foot_pose(foot.EvalPoseInWorld(scratch), self._p_AF) for foot in self._feet
+        )
+        return left, right
+
+    def _calc_state(self, context: Context, output: BasicVector) -> None:
+        now = self._now(context)
+        estimate, count = now.estimate, self._joints_count
+        joints = eval_vector(self._joints, context)
+        ahead = self._params.lead
+        R_WB = estimate.R_WB @ exp_rotation(ahead * now.angular_rate)
+        v_WB = estimate.v_WB + ahead * now.acceleration
+        state = np.concatenate(
+            [
+                RotationMatrix(R_WB).ToQuaternion().wxyz(),
+                estimate.p_WB + 0.5 * ahead * (estimate.v_WB + v_WB),
+                joints[:count] + ahead * joints[count:],
+                R_WB @ now.angular_rate,
+                v_WB,
+                joints[count:],
+            ]
+        )
+        set_vector(output, state)
+
+    def _calc_deviation(self, context: Context, output: BasicVector) -> None:
+        set_vector(output, deviations(self._now(context).estimate))
+
+    def _calc_biases(self, context: Context, output: BasicVector) -> None:
+        estimate = self._now(context).estimate
+        biases = [estimate.gyroscope_bias, estimate.accelerometer_bias]
+        set_vector(output, np.concatenate(biases))
+
+    def _calc_faults(self, context: Context, output: BasicVector) -> None:
+        now = self._now(context)
+        set_vector(output, np.array([*now.estimate.slips, now.was_silent]))
+
+    def _update(self, context: Context, discrete: DiscreteValues) -> None:
+        now = self._now(context)
+        before = read_state(context, self._read)
+        heard = now.integrals[0] > before[0]
+        silent = 0.0 if heard else now.silent + self._period
+        read = np.concatenate(
+            [
+                now.integrals,
+                now.angular_rate,
+                now.acceleration,
+                [silent, now.was_silent],
+            ]
+        )
+        set_state(discrete, self._memory, pack(now.estimate))
+        set_state(discrete, self._read, read)
+
+
+def _foot_pose(X_BA: object, p_AF: Vector) -> FootPose:
+    R_BA: Vector = X_BA.rotation().matrix()  # type: ignore[attr-defined]
+    return FootPose(X_BA.translation() + R_BA @ p_AF, R_BA)  # type: ignore[attr-defined]
+
+
+def _rotation(quaternion: Vector) -> Vector:
+    w, x, y, z = (quaternion / np.linalg.norm(quaternion)).tolist()
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
