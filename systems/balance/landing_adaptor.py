@@ -36,6 +36,9 @@ class LandingParams(Parameters):
     business."""
     release_time: float = number(0.08, "s", above=0.0)
     """Time constant with which a lifted foot forgets where it stood, s."""
+    settle_time: float = number(0.1, "s", above=0.0)
+    """Time constant with which the reference of a foot that has landed goes from where
+    it was to where the foot is, s: a step would tear the foot off the ground again."""
     swing_gain: float = number(15.0, "1/s", least=0.0)
     """Rate at which a foot in the air is brought to its plan, 1/s."""
     swing_limit: float = number(0.04, "m", least=0.0)
@@ -52,6 +55,8 @@ class FootState:
     """What is added in the air so that the foot follows the plan, (6,)."""
     held: Vector
     """The reference at which a foot that landed early is held, (6,)."""
+    slack: Vector
+    """How far the reference still is from where the foot met the ground, (6,)."""
     landed: bool
     """Whether it stands on ground that it has felt."""
     lifted_for: float
@@ -82,18 +87,21 @@ def adapt(
         The state after this tick, the pose to track and its rate, (6,) each.
     """
     offset, sag, held, landed = state.offset, state.sag, state.held, state.landed
+    slack = state.slack * (1.0 - min(1.0, params.period / params.settle_time))
     lifted_for = 0.0
     if not contact:
         lifted_for = state.lifted_for + params.period
         if state.lifted_for == 0.0:
             landed = False
         if not landed:
+            slack = np.zeros(6)
             offset = offset * (1.0 - min(1.0, params.period / params.release_time))
             sag = state.sag + params.swing_gain * params.period * (planned - measured)
             sag = np.clip(sag, -params.swing_limit, params.swing_limit)
             if felt and lifted_for > params.blind_time and rate[2] < 0.0:
                 landed = True
                 held = _level(measured)
+                slack = planned + offset + sag - held
         if landed:
             offset = held - planned
             rate = np.zeros(6)
@@ -101,14 +109,17 @@ def adapt(
     elif not landed:
         landed = felt or offset[2] < -params.search_depth
         if landed:
+            slack = offset + sag - (_level(measured) - planned)
             offset, sag = _level(measured) - planned, np.zeros(6)
         else:
             offset = offset.copy()
             offset[2] -= params.search_speed * params.period
             rate = rate.copy()
             rate[2] -= params.search_speed
-    after = FootState(offset, sag, held, landed, lifted_for)
-    return after, planned + offset + sag, rate
+    if slack.any():
+        rate = rate - slack / params.settle_time
+    after = FootState(offset, sag, held, slack, landed, lifted_for)
+    return after, planned + offset + sag + slack, rate
 
 
 def _level(pose: Vector) -> Vector:
@@ -120,21 +131,33 @@ def _level(pose: Vector) -> Vector:
 
 def standing() -> FootState:
     """Makes the state of a foot that stands where its plan says."""
-    return FootState(np.zeros(6), np.zeros(6), np.zeros(6), True, 0.0)
+    nothing: Vector = np.zeros(6)
+    return FootState(nothing, nothing, nothing, nothing, True, 0.0)
 
 
-_SIZE = 20
+_SIZE = 26
 
 
 def _pack(state: FootState) -> Vector:
     return np.concatenate(
-        [state.offset, state.sag, state.held, [float(state.landed), state.lifted_for]]
+        [
+            state.offset,
+            state.sag,
+            state.held,
+            state.slack,
+            [float(state.landed), state.lifted_for],
+        ]
     )
 
 
 def _unpack(values: Vector) -> FootState:
     return FootState(
-        values[:6], values[6:12], values[12:18], values[18] > 0.5, values[19]
+        values[:6],
+        values[6:12],
+        values[12:18],
+        values[18:24],
+        values[24] > 0.5,
+        values[25],
     )
 
 
@@ -165,8 +188,8 @@ class LandingAdaptor(LeafSystem):
     - `foot_references` (output): like the input, adapted; of the last tick.
     - `contacts` (output): like the input, but a foot counts when it has landed.
 
-    The discrete state is, a foot, (offset (6), sag (6), held pose (6), landed, time
-    since lift-off), then the plan's start; and both outputs.
+    The discrete state is, a foot, (offset (6), sag (6), held pose (6), slack (6),
+    landed, time since lift-off), then the plan's start; and both outputs.
     """
 
     def __init__(self, params: LandingParams, foot_poses: Vector) -> None:

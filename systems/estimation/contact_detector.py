@@ -38,8 +38,11 @@ class ContactParams(Parameters):
     and offset and what the foot's own inertia pulls in the swing."""
     release_force: float = number(15.0, "N", above=0.0)
     """Below this force, N, the ground is lost."""
+    sure_force: float = number(100.0, "N", above=0.0)
+    """What is felt above this, N, is ground at the first sample: no noise is so strong,
+    and a stiff leg that goes on down for a tick strikes with body weights."""
     touch_count: int = number(2, least=1, most=100)
-    """Samples in a row that it takes to touch."""
+    """Samples in a row that it takes to touch with less."""
     release_count: int = number(2, least=1, most=100)
     """Samples in a row that it takes to lose."""
     bearing_force: float = number(150.0, "N", above=0.0)
@@ -60,6 +63,11 @@ class ContactParams(Parameters):
             raise ValueError(
                 f"release_force: must be less than touch_force, "
                 f"{self.touch_force:g} N, got {self.release_force:g} N"
+            )
+        if not self.touch_force <= self.sure_force:
+            raise ValueError(
+                f"sure_force: must be at least touch_force, {self.touch_force:g} N, "
+                f"got {self.sure_force:g} N"
             )
 
 
@@ -90,6 +98,8 @@ def detect_contact(
         force: along the sole's normal, N.
         params: thresholds and counts.
     """
+    if force > params.sure_force:
+        return FootContact(True, 0)
     if contact.touching:
         contrary, patience = force < params.release_force, params.release_count
     else:

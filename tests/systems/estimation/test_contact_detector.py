@@ -28,8 +28,14 @@ def after(contact: FootContact, *forces: float) -> FootContact:
 
 def test_one_sample_is_no_touch() -> None:
     """A spike between quiet samples says nothing; two in a row do."""
-    assert not after(AIR, 200.0, 0.0, 200.0, 0.0).touching
-    assert after(AIR, 200.0, 200.0).touching
+    assert not after(AIR, 60.0, 0.0, 60.0, 0.0).touching
+    assert after(AIR, 60.0, 60.0).touching
+
+
+def test_a_strong_sample_is_enough() -> None:
+    """Beyond all noise."""
+    assert after(AIR, PARAMS.sure_force + 1.0).touching
+    assert after(FootContact(True, 1), PARAMS.sure_force + 1.0) == FootContact(True, 0)
 
 
 def test_between_the_thresholds_nothing_changes() -> None:
@@ -95,3 +101,5 @@ def test_thresholds_in_the_wrong_order_are_refused() -> None:
     """By name."""
     with pytest.raises(ValueError, match=r"^release_force: must be less"):
         ContactParams(release_force=40.0).validate()
+    with pytest.raises(ValueError, match=r"^sure_force: must be at least"):
+        ContactParams(sure_force=20.0).validate()
