@@ -19,6 +19,7 @@ from footfall.systems.perception.planes.planes import (
 from footfall.systems.perception.planes.surfaces import (
     Surfaces,
     connect_pieces,
+    find_columns,
     neighbours,
 )
 
@@ -88,7 +89,9 @@ def _fit_flat(
     """Fits planes by least squares; returns the clusters that have none as well."""
     planes: list[FittedPlane] = []
     uneven = np.full(len(clusters), -1, dtype=np.int64)
-    order = np.argsort(clusters, kind="stable")
+    # The few numbers of clusters are sorted by radix.
+    few = clusters.max(initial=-1) < np.iinfo(np.int16).max
+    order = np.argsort(clusters.astype(np.int16) if few else clusters, kind="stable")
     bounds = np.searchsorted(clusters[order], np.arange(clusters.max(initial=-1) + 2))
     for begin, end in pairwise(bounds):
         members = order[begin:end]
@@ -192,59 +195,58 @@ def grow_rims(
     level, inside = np.zeros(total, dtype=bool), np.zeros(total, dtype=bool)
     for plane in planes:
         level[plane.inliers] = True
+    others = np.flatnonzero(~level)
     of_planes = []
     for plane in planes:
-        cells, of_piece, inner = _inner_columns(column[plane.inliers], surfaces.width)
-        inside[plane.inliers] = inner[of_piece]
-        rim = _columns_about(cells[~inner], cells, surfaces.width)
-        begin = np.searchsorted(column, rim)
-        end = np.searchsorted(column, rim, side="right")
-        pieces = np.repeat(begin, end - begin)
-        pieces += np.arange(len(pieces)) - np.repeat(
-            np.cumsum(end - begin) - (end - begin), end - begin
-        )
-        offset = surfaces.mean[pieces, :2] - plane.point[:2]
+        own = column[plane.inliers]
+        if len(own) > MANY_PIECES:
+            inside[plane.inliers] = _inner_columns(own, surfaces.width)
+        offset = surfaces.mean[others, :2] - plane.point[:2]
         z = plane.point[2] - offset @ plane.normal[:2] / plane.normal[2]
-        crossed = (surfaces.low[pieces] <= z + tolerance) & (
-            surfaces.high[pieces] >= z - tolerance
+        crossed = (surfaces.low[others] <= z + tolerance) & (
+            surfaces.high[others] >= z - tolerance
         )
-        pieces = pieces[crossed & ~level[pieces]]
-        of_planes.append(np.sort(np.concatenate([plane.inliers, pieces])))
+        rim = others[crossed]
+        rim = rim[_touch(column[rim], own, surfaces.width)]
+        of_planes.append(np.sort(np.concatenate([plane.inliers, rim])))
     return of_planes, inside
 
 
-def _inner_columns(
-    columns: NDArray[np.int64], width: int
-) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.bool]]:
-    """Lists columns once each and tells which have others of them on all four sides.
+def _inner_columns(columns: NDArray[np.int64], width: int) -> NDArray[np.bool]:
+    """Tells which columns have others of them on all four sides, (k,).
 
     Args:
         columns: keys, (k,), ascending and maybe repeated.
         width: by how much those of neighbours along x differ.
-
-    Returns:
-        The columns, (c,), the place of each of the k among them, and the mask, (c,).
     """
     new = np.diff(columns, prepend=-1) > 0
     cells, place = columns[new], np.cumsum(new) - 1
     inner = np.zeros(len(cells), dtype=bool)
     inner[1:-1] = cells[2:] - cells[:-2] == 2
     for shift in (-width, width):
-        at = np.minimum(np.searchsorted(cells, cells + shift), len(cells) - 1)
-        inner &= cells[at] == cells + shift
-    return cells, place, inner
+        inner &= _are_among(cells + shift, cells)
+    return np.asarray(inner[place])
 
 
-def _columns_about(
-    rim: NDArray[np.int64], cells: NDArray[np.int64], width: int
-) -> NDArray[np.int64]:
-    """Finds the columns that touch some of the rim, (r,), and are none of the cells."""
-    shifts = np.array([-1, 0, 1])
-    around = (shifts[:, None] * width + shifts).ravel()
-    outer = np.sort((rim[:, None] + around).ravel())
-    outer = outer[np.diff(outer, prepend=-1) > 0]
-    at = np.minimum(np.searchsorted(cells, outer), len(cells) - 1)
-    return np.asarray(outer[cells[at] != outer])
+def _touch(
+    columns: NDArray[np.int64], cells: NDArray[np.int64], width: int
+) -> NDArray[np.bool]:
+    """Tells which columns, (k,), are beside some of the cells and none of them."""
+    beside = np.zeros(len(columns), dtype=bool)
+    for row in (-width, 0, width):
+        # The three neighbours of a row have keys that follow each other.
+        at = find_columns(cells, columns + row - 1)
+        there = cells[np.minimum(at, len(cells) - 1)]
+        beside |= (at < len(cells)) & (there <= columns + row + 1)
+    return beside & ~_are_among(columns, cells)
+
+
+def _are_among(
+    columns: NDArray[np.int64], cells: NDArray[np.int64]
+) -> NDArray[np.bool]:
+    """Tells which columns, (k,), are some of the cells, (c,), ascending."""
+    at = np.minimum(find_columns(cells, columns), len(cells) - 1)
+    return np.asarray(cells[at] == columns)
 
 
 def bound_surfaces(
