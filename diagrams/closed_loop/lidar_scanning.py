@@ -16,13 +16,20 @@ from footfall.systems.sensing.ray_caster import BodyMesh
 from footfall.systems.sensing.tilting_lidar import TiltingLidar
 
 
-def add_lidar(station: StationBuilder, setup: Setup, true: RobotStation) -> None:
+def add_lidar(
+    station: StationBuilder,
+    setup: Setup,
+    true: RobotStation,
+    cell: float | None = None,
+) -> None:
     """Adds `tilting_lidar` and `scan_assembler`, which take `body_poses` and `scan`.
 
     Args:
         station: of perception.
         setup: scenario and robot.
         true: where the bodies are, by which rays are cast.
+        cell: side of the columns that lines are cut into as they come, m; None where
+            nothing asks for them.
 
     Raises:
         RobotError: the robot has no head.
@@ -54,6 +61,7 @@ def add_lidar(station: StationBuilder, setup: Setup, true: RobotStation) -> None
             mount_body=head,
             X_BM=X_HM,
             own_boxes=[box_around(mesh.body_index, mesh.vertices) for mesh in meshes],
+            cell=cell,
         ),
     )
     for port in ("scan", "sweep"):

@@ -101,7 +101,7 @@ def _fit_flat(
         if np.count_nonzero(inside) < FLAT * len(members):
             uneven[members] = clusters[members]
             continue
-        point, normal = fit_plane(mean[inside])
+        point, normal = fit_plane(np.compress(inside, mean, axis=0))
         inside = np.abs((mean - point) @ normal) <= tolerance
         planes.append(FittedPlane(point, normal, members[inside]))
     return planes, uneven
@@ -208,7 +208,8 @@ def grow_rims(
         )
         rim = others[crossed]
         rim = rim[_touch(column[rim], own, surfaces.width)]
-        of_planes.append(np.sort(np.concatenate([plane.inliers, rim])))
+        both = np.concatenate([plane.inliers, rim])
+        of_planes.append(np.sort(both, kind="stable"))
     return of_planes, inside
 
 
@@ -223,8 +224,8 @@ def _inner_columns(columns: NDArray[np.int64], width: int) -> NDArray[np.bool]:
     cells, place = columns[new], np.cumsum(new) - 1
     inner = np.zeros(len(cells), dtype=bool)
     inner[1:-1] = cells[2:] - cells[:-2] == 2
-    for shift in (-width, width):
-        inner &= _are_among(cells + shift, cells)
+    sides = cells + np.array([[-width], [width]])
+    inner &= np.all(_are_among(sides, cells), axis=0)
     return np.asarray(inner[place])
 
 
@@ -232,19 +233,18 @@ def _touch(
     columns: NDArray[np.int64], cells: NDArray[np.int64], width: int
 ) -> NDArray[np.bool]:
     """Tells which columns, (k,), are beside some of the cells and none of them."""
-    beside = np.zeros(len(columns), dtype=bool)
-    for row in (-width, 0, width):
-        # The three neighbours of a row have keys that follow each other.
-        at = find_columns(cells, columns + row - 1)
-        there = cells[np.minimum(at, len(cells) - 1)]
-        beside |= (at < len(cells)) & (there <= columns + row + 1)
-    return beside & ~_are_among(columns, cells)
+    # The three neighbours of a row have keys that follow each other.
+    rows = columns + np.array([[-width], [0], [width]])
+    at = find_columns(cells, np.stack([rows - 1, rows]).reshape(6, -1))
+    there = np.append(cells, np.iinfo(np.int64).max)[at]
+    beside = np.any(there[:3] <= rows + 1, axis=0)
+    return np.asarray(beside & (there[4] != columns))
 
 
 def _are_among(
     columns: NDArray[np.int64], cells: NDArray[np.int64]
 ) -> NDArray[np.bool]:
-    """Tells which columns, (k,), are some of the cells, (c,), ascending."""
+    """Tells which columns, of any shape, are some of the cells, (c,), ascending."""
     at = np.minimum(find_columns(cells, columns), len(cells) - 1)
     return np.asarray(cells[at] == columns)
 

@@ -45,6 +45,8 @@ class Surfaces:
     """Where in `order` each of m pieces begins, and n, (m + 1,)."""
     column: NDArray[np.int64]
     """Key of each piece's column, (m,), ascending."""
+    corner: tuple[int, int]
+    """The column with key 0, by its x and y in sides of a column."""
     width: int
     """By how much the keys of columns differ that are neighbours along x."""
     cell: float
@@ -64,8 +66,7 @@ class Surfaces:
     def points_of(self, pieces: NDArray[np.int64]) -> NDArray[np.int64]:
         """Returns the indices of the points of some pieces, (k,)."""
         begin, count = self.first[pieces], self.first[pieces + 1] - self.first[pieces]
-        shift = np.repeat(begin - np.cumsum(count) + count, count)
-        return self.order[shift + np.arange(len(shift))]
+        return self.order[spread(begin, count)]
 
 
 def cut_columns(points: Vector, cell: float) -> Surfaces:
@@ -80,17 +81,26 @@ def cut_columns(points: Vector, cell: float) -> Surfaces:
         none = np.zeros(0, dtype=np.int64)
         empty = np.zeros(0)
         return Surfaces(
-            none, np.zeros(1, np.int64), none, 1, cell, np.zeros((0, 3)), empty, empty
+            order=none,
+            first=np.zeros(1, np.int64),
+            column=none,
+            corner=(0, 0),
+            width=1,
+            cell=cell,
+            mean=np.zeros((0, 3)),
+            low=empty,
+            high=empty,
         )
     x = np.floor(points[:, 0] * (1.0 / cell)).astype(np.int64)
     y = np.floor(points[:, 1] * (1.0 / cell)).astype(np.int64)
     # An empty column at either side keeps neighbours of the rim from wrapping around.
-    x -= x.min() - 1
-    y -= y.min() - 1
+    corner = int(x.min()) - 1, int(y.min()) - 1
+    x -= corner[0]
+    y -= corner[1]
     width = int(y.max()) + 2
     z = points[:, 2]
-    height = np.floor(z * (1.0 / Z_STEP)).astype(np.int64)
-    order = np.lexsort((_narrow(height - height.min()), _narrow(y), _narrow(x)))
+    height = steps(z)
+    order = np.lexsort((narrow(height - height.min()), narrow(y), narrow(x)))
     column, height = (x * width + y)[order], height[order]
     new = np.ones(n, dtype=bool)
     np.not_equal(column[1:], column[:-1], out=new[1:])
@@ -104,6 +114,7 @@ def cut_columns(points: Vector, cell: float) -> Surfaces:
         order=order,
         first=ends,
         column=column[first],
+        corner=corner,
         width=width,
         cell=cell,
         mean=np.column_stack(sums) / count[:, None],
@@ -112,7 +123,19 @@ def cut_columns(points: Vector, cell: float) -> Surfaces:
     )
 
 
-def _narrow(values: NDArray[np.int64]) -> NDArray[np.integer]:
+def spread(begin: NDArray[np.int64], count: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Lists `count` numbers from each of some beginnings on, one list after another."""
+    shift = np.repeat(begin - np.cumsum(count) + count, count)
+    shift += np.arange(len(shift))
+    return shift
+
+
+def steps(z: Vector) -> NDArray[np.int64]:
+    """Counts heights, (n,), m, in steps of `Z_STEP`."""
+    return np.floor(z * (1.0 / Z_STEP)).astype(np.int64)
+
+
+def narrow(values: NDArray[np.int64]) -> NDArray[np.integer]:
     """Stores numbers from 0 on in 16 bits if they fit: those are sorted by radix."""
     return values.astype(np.uint16) if values.max() < 1 << 16 else values
 
@@ -150,22 +173,27 @@ def neighbours(
         Places in `level`, (p, 2), each pair once.
     """
     z, column = surfaces.mean[level, 2], surfaces.column[level]
-    pairs = []
-    number = np.arange(len(level))
-    for dx, dy in HALF:
-        target = column + dx * surfaces.width + dy
-        at, here = find_columns(column, target), number
+    beside = np.array([dx * surfaces.width + dy for dx, dy in HALF])[:, None]
+    starts = find_columns(column, column + beside)
+    column = np.append(column, -1)
+    goes_on = column[1:] == column[:-1]
+    first, second = [], []
+    for at, shift in zip(starts, beside, strict=True):
+        here = np.flatnonzero(column[at] == column[:-1] + shift)
+        at = at[here]
         while len(here):
-            inside = np.flatnonzero(column[np.minimum(at, len(level) - 1)] == target)
-            inside = inside[at[inside] < len(level)]
-            at, here, target = at[inside], here[inside], target[inside]
-            near = np.abs(z[at] - z[here]) <= offset
-            pairs.append(np.column_stack([here[near], at[near]]))
-            # Of a column the pieces are from low to high: these may be followed by
-            # one at the height that is sought.
-            lower = np.flatnonzero(z[at] - z[here] <= offset)
-            at, here, target = at[lower] + 1, here[lower], target[lower]
-    return np.concatenate(pairs) if pairs else np.zeros((0, 2), dtype=np.int64)
+            above = z[at] - z[here]
+            near = np.abs(above) <= offset
+            first.append(here[near])
+            second.append(at[near])
+            # The pieces of a column are from low to high: the next may be near too.
+            more = np.flatnonzero((above <= offset) & goes_on[at])
+            at, here = at[more] + 1, here[more]
+    pairs = np.zeros((2, sum(map(len, first))), dtype=np.int64)
+    if first:
+        np.concatenate(first, out=pairs[0])
+        np.concatenate(second, out=pairs[1])
+    return pairs.T
 
 
 def find_columns(
@@ -175,10 +203,10 @@ def find_columns(
 
     Args:
         columns: keys, (m,), ascending and maybe repeated.
-        sought: keys, (k,).
+        sought: keys, of any shape.
 
     Returns:
-        Place of the first of the m keys that is no less than each sought one, (k,).
+        Place of the first of the m keys that is no less than each sought one.
     """
     if not len(columns) or columns[-1] - columns[0] > TABLE * (len(columns) + 1000):
         return np.searchsorted(columns, sought)
