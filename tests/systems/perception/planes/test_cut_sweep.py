@@ -13,8 +13,8 @@ from footfall.systems.perception.planes.cut_sweep import (
     empty_cut,
     finish_sweep,
     join_cuts,
+    merge_surfaces,
 )
-from footfall.systems.perception.planes.merged_surfaces import merge_surfaces
 from footfall.systems.perception.planes.plane_segmentation import (
     is_cut_for,
     segment_planes,
