@@ -23,7 +23,12 @@ from footfall.systems.sensing.ray_caster import BodyMesh
 from footfall.systems.sensing.tilting_lidar import TiltingLidar
 
 
-def add_lidar(station: StationBuilder, setup: Setup, true: RobotStation) -> None:
+def add_lidar(
+    station: StationBuilder,
+    setup: Setup,
+    true: RobotStation,
+    cell: float | None = None,
+) -> None:
     """Adds the scanner and what makes a cloud of its lines.
 
     Parts: `tilting_lidar`, whose rays meet the true bodies, and, of the pose that the
@@ -34,6 +39,8 @@ def add_lidar(station: StationBuilder, setup: Setup, true: RobotStation) -> None
         station: of perception.
         setup: scenario and robot.
         true: where the bodies are, by which rays are cast.
+        cell: side of the columns that lines are cut into as they come, m; None where
+            nothing asks for them.
 
     Raises:
         RobotError: the robot has no head.
@@ -66,6 +73,7 @@ def add_lidar(station: StationBuilder, setup: Setup, true: RobotStation) -> None
             mount_body=own_head,
             X_BM=X_HM,
             own_boxes=own_boxes(setup, without=(robot.head_body,)),
+            cell=cell,
         ),
     )
     station.add("viewpoint", lambda: MountedPoint(own_head, p_HM))

@@ -32,7 +32,9 @@ def build_stair_perception(setup: Setup, true: RobotStation) -> Station:
     params = setup.params
     down: Vector = np.array([0.0, 0.0, -1.0])
     station = StationBuilder("perception", setup.parts)
-    add_lidar(station, setup, true)
+    by_surfaces = params.segmenter.method == "surfaces"
+    cell = params.segmenter.voxel_size if by_surfaces else None
+    add_lidar(station, setup, true, cell)
     station.add("gravity", lambda: ConstantVectorSource(down))
     station.add(
         "plane_segmenter", lambda: PlaneSegmenter(setup.robot.sole, params.segmenter)
@@ -42,6 +44,8 @@ def build_stair_perception(setup: Setup, true: RobotStation) -> Station:
         lambda: StaircaseMap(params.staircase_map, params.thinking.segmentation),
     )
     station.connect("scan_assembler.cloud", "plane_segmenter.cloud")
+    if setup.parts.own("scan_assembler") is None:
+        station.connect("scan_assembler.cut_cloud", "plane_segmenter.cut_cloud")
     station.connect("gravity.y0", "plane_segmenter.gravity")
     station.connect("viewpoint.position", "plane_segmenter.viewpoint")
     station.connect("plane_segmenter.segmentation", "staircase_map.segmentation")

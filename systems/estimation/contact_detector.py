@@ -1,5 +1,6 @@
-"""Which feet stand: from noisy forces, with hysteresis and patience."""
+"""Which feet stand: from noisy forces, over what a foot in the air feels."""
 
+import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -33,42 +34,30 @@ class ContactParams(Parameters):
         0.005, "s", least=1e-4, most=0.1, shared="parameters.control_period"
     )
     """Of the controllers, s."""
-    touch_force: float = number(30.0, "N", above=0.0)
-    """Force along the sole's normal that counts as ground, N: above the sensor's noise
-    and offset and what the foot's own inertia pulls in the swing."""
-    release_force: float = number(15.0, "N", above=0.0)
-    """Below this force, N, the ground is lost."""
-    sure_force: float = number(100.0, "N", above=0.0)
-    """What is felt above this, N, is ground at the first sample: no noise is so strong,
-    and a stiff leg that goes on down for a tick strikes with body weights."""
-    touch_count: int = number(2, least=1, most=100)
-    """Samples in a row that it takes to touch with less."""
+    touch_force: float = number(15.0, "N", above=0.0)
+    """Least force along the sole's normal, over what a foot in the air feels, that
+    counts as ground, N."""
+    touch_sigmas: float = number(5.0, least=0.0)
+    """The same as a multiple of the noise that a foot in the air feels: the larger of
+    the two counts, at the first sample, as a stiff leg that goes on down for a few
+    ticks strikes with body weights."""
+    release_share: float = number(0.5, above=0.0, below=1.0)
+    """Below this share of that force the ground is lost."""
     release_count: int = number(2, least=1, most=100)
-    """Samples in a row that it takes to lose."""
+    """Samples in a row that it takes to lose it."""
+    noise: float = number(3.0, "N", above=0.0)
+    """Noise of the force that is reckoned with before a foot was in the air, N."""
+    tare_time: float = number(0.1, "s", above=0.0)
+    """Time constant with which the mean of the force in the air, from offsets and the
+    foot's inertia, and its noise are followed, s."""
+    largest_tare: float = number(10.0, "N", least=0.0)
+    """Most that is taken for such a mean, N: what is more is ground."""
     bearing_force: float = number(150.0, "N", above=0.0)
     """Force with which a foot that touches bears: it does not move, and the base can be
     told by it."""
     edge: float = number(0.02, "m", least=0.0)
     """A foot whose centre of pressure is nearer to the sole's edge than this, m, may
     roll over it, and bears nothing for sure."""
-
-    def validate(self) -> None:
-        """Checks every field, and those that concern each other.
-
-        Raises:
-            ValueError: "field: reason, got x" for the first field that is wrong.
-        """
-        super().validate()
-        if not self.release_force < self.touch_force:
-            raise ValueError(
-                f"release_force: must be less than touch_force, "
-                f"{self.touch_force:g} N, got {self.release_force:g} N"
-            )
-        if not self.touch_force <= self.sure_force:
-            raise ValueError(
-                f"sure_force: must be at least touch_force, {self.touch_force:g} N, "
-                f"got {self.sure_force:g} N"
-            )
 
 
 class SoleSize(NamedTuple):
@@ -85,7 +74,16 @@ class FootContact(NamedTuple):
     touching: bool
     """Whether it is on the ground."""
     against: int
-    """Samples in a row that say otherwise."""
+    """Samples in a row that say otherwise, of one that is."""
+    mean: float
+    """What it felt in the air, N."""
+    variance: float
+    """How that scattered, N^2."""
+
+
+def standing_contact(params: ContactParams) -> FootContact:
+    """Makes the memory of a foot that stands and was never in the air."""
+    return FootContact(True, 0, 0.0, params.noise**2)
 
 
 def detect_contact(
@@ -96,18 +94,22 @@ def detect_contact(
     Args:
         contact: after the sample before.
         force: along the sole's normal, N.
-        params: thresholds and counts.
+        params: thresholds and time constant.
     """
-    if force > params.sure_force:
-        return FootContact(True, 0)
-    if contact.touching:
-        contrary, patience = force < params.release_force, params.release_count
-    else:
-        contrary, patience = force > params.touch_force, params.touch_count
-    against = contact.against + 1 if contrary else 0
-    if against >= patience:
-        return FootContact(not contact.touching, 0)
-    return FootContact(contact.touching, against)
+    touching, against, mean, variance = contact
+    threshold = max(params.touch_force, params.touch_sigmas * math.sqrt(variance))
+    excess = force - mean
+    if touching:
+        against = against + 1 if excess < params.release_share * threshold else 0
+        if against >= params.release_count:
+            touching, against = False, 0
+        return FootContact(touching, against, mean, variance)
+    if excess > threshold:
+        return FootContact(True, 0, mean, variance)
+    share = min(1.0, params.period / params.tare_time)
+    mean = max(-params.largest_tare, min(params.largest_tare, mean + share * excess))
+    variance += share * (excess * excess - variance)
+    return FootContact(False, 0, mean, variance)
 
 
 def bears(wrench: Vector, sole: SoleSize, params: ContactParams) -> bool:
@@ -160,7 +162,8 @@ class ContactDetector(LeafSystem):
         super().__init__()
         params.validate()
         self._params, self._sole = params, sole
-        first: Vector = np.array([1.0, 0.0, 1.0, 0.0])
+        stands = standing_contact(params)
+        first: Vector = np.array([*stands, *stands], dtype=np.float64)
         self._memory = declare_state(self, first)
         self._wrenches = self.DeclareVectorInputPort("foot_wrenches", 12)
         inputs = {
@@ -183,8 +186,8 @@ class ContactDetector(LeafSystem):
         before = read_state(context, self._memory)
         left, right = eval_vector(self._wrenches, context).reshape(2, 6)[:, 2]
         return (
-            detect_contact(_contact(before[:2]), left, self._params),
-            detect_contact(_contact(before[2:4]), right, self._params),
+            detect_contact(_contact(before[:4]), left, self._params),
+            detect_contact(_contact(before[4:]), right, self._params),
         )
 
     def _calc_touching(self, context: Context, output: BasicVector) -> None:
@@ -205,4 +208,5 @@ class ContactDetector(LeafSystem):
 
 
 def _contact(values: Vector) -> FootContact:
-    return FootContact(bool(values[0] > 0.5), int(values[1]))
+    touching, against, mean, variance = values.tolist()
+    return FootContact(touching > 0.5, int(against), mean, variance)

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -16,6 +16,14 @@ from footfall.models.values.validation import Parameters, number
 from footfall.models.values.value import Value
 from footfall.models.values.vector import Vector
 from footfall.systems.held_value import HeldValue
+from footfall.systems.perception.planes.cut_sweep import (
+    CutCloud,
+    CutSweep,
+    add_line,
+    cut_cloud,
+    empty_cut,
+    finish_sweep,
+)
 from footfall.systems.ports import eval_abstract, eval_vector, set_vector
 from footfall.systems.sensing.scan_geometry import line_to_points, tilt_pose
 from footfall.systems.timing import timed
@@ -111,6 +119,10 @@ class _Assembly(Value):
     """The same of the last finished sweep."""
     sweeps: int = 0
     """Number of sweeps assembled."""
+    cut_lines: CutSweep | None = None
+    """The same lines as `lines`, cut; None before the first or where nothing is cut."""
+    cut: CutSweep | None = None
+    """The same as `cloud`, cut."""
 
 
 class ScanAssembler(LeafSystem):
@@ -129,12 +141,15 @@ class ScanAssembler(LeafSystem):
         - body_poses
         output_ports:
         - cloud
+        - cut_cloud
         - sweep
 
     - `scan`: the scanner's latest line, LaserScan.
     - `sweep` (input): how many sweeps the scanner has finished, (1,), no unit.
     - `body_poses`: X_WB of every body, true or estimated, list[RigidTransform].
     - `cloud`: points of the last finished sweep in W, PointCloud, m; empty before.
+    - `cut_cloud`: the same cloud's points lower than the scanner, CutCloud in W, m, cut
+      into pieces of surface line by line; empty where no side of columns was given.
     - `sweep` (output): how many sweeps are assembled, (1,), no unit.
     """
 
@@ -146,6 +161,7 @@ class ScanAssembler(LeafSystem):
         mount_body: int,
         X_BM: RigidTransform,
         own_boxes: Sequence[SelfFilterBox] = (),
+        cell: float | None = None,
     ) -> None:
         """Declares ports and the update.
 
@@ -155,12 +171,14 @@ class ScanAssembler(LeafSystem):
             mount_body: index of the body that carries the scanner's servo.
             X_BM: pose of the servo's base in that body: x forward, y left, z up.
             own_boxes: boxes about the robot's bodies.
+            cell: side of the columns that lines are cut into, m; None to cut nothing.
 
         Raises:
             ValueError: a parameter is wrong.
         """
         super().__init__()
         params.validate()
+        self._cell = cell
         self._margin = params.margin
         self._angles = beam_angles
         self._mount_body = mount_body
@@ -181,6 +199,13 @@ class ScanAssembler(LeafSystem):
             calc_cloud,
             prerequisites_of_calc=ticket,
         )
+        calc_cut: Callable[..., None] = timed(self, self._calc_cut_cloud)
+        self.DeclareAbstractOutputPort(
+            "cut_cloud",
+            lambda: AbstractValue.Make(empty_cut(1.0)),
+            calc_cut,
+            prerequisites_of_calc=ticket,
+        )
         self.DeclareVectorOutputPort(
             "sweep", 1, timed(self, self._calc_sweep), prerequisites_of_calc=ticket
         )
@@ -195,15 +220,29 @@ class ScanAssembler(LeafSystem):
             return
         body_poses = eval_abstract(self._body_poses, context, list)
         X_WM = body_poses[self._mount_body].multiply(self._X_BM)
-        points = line_to_points(
-            scan.ranges, self._angles, X_WM.multiply(tilt_pose(scan.tilt))
-        )
+        X_WL = X_WM.multiply(tilt_pose(scan.tilt))
+        points = line_to_points(scan.ranges, self._angles, X_WL)
         points = remove_own_points(points, self._boxes, body_poses, self._margin)
-        now = _Assembly(scan.time, (*was.lines, points), was.cloud, was.sweeps)
+        cut = self._cut(was.cut_lines, points, float(X_WL.translation()[2]))
+        now = replace(was, time=scan.time, lines=(*was.lines, points), cut_lines=cut)
         sweeps = int(eval_vector(self._sweep, context)[0])
         if sweeps > was.sweeps:
-            now = _Assembly(scan.time, (), now.lines, sweeps)
+            now = _Assembly(scan.time, (), now.lines, sweeps, None, cut)
         self._state.set(state, now)
+
+    def _cut(
+        self, sweep: CutSweep | None, points: Vector, eye_height: float
+    ) -> CutSweep | None:
+        """Adds a line, (n, 3), m, seen from a height, m, to those that are cut."""
+        if self._cell is None:
+            return None
+        sweep = sweep or CutSweep(empty_cut(self._cell))
+        return add_line(sweep, cut_cloud(points, eye_height, self._cell))
+
+    def _calc_cut_cloud(self, context: Context, cloud: AbstractValue) -> None:
+        cut = self._state.get(context).cut
+        nothing: CutCloud = empty_cut(self._cell or 1.0)
+        cloud.set_value(nothing if cut is None else finish_sweep(cut))
 
     def _calc_cloud(self, context: Context, cloud: AbstractValue) -> None:
         lines = self._state.get(context).cloud

@@ -6,8 +6,17 @@ import numpy as np
 import pytest
 
 from footfall.models.robots.jvrc1 import JVRC1
+from footfall.models.values.perceived import PlaneSegmentation
 from footfall.models.values.vector import Vector
 from footfall.systems.open3d_loader import open3d as o3d
+from footfall.systems.perception.planes.cut_sweep import (
+    BLOCK,
+    CutSweep,
+    add_line,
+    cut_cloud,
+    empty_cut,
+    finish_sweep,
+)
 from footfall.systems.perception.planes.plane_segmentation import segment_planes
 from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterParams
 
@@ -74,6 +83,49 @@ def test_plane_segmentation(benchmark: Any, part: str, way: str) -> None:
         stage: round(milliseconds, 1) for stage, milliseconds in found.times_ms
     }
     assert way == "published" or len(found.staircase.treads) == 3
+
+
+def cut_lines(lines: Vector) -> CutSweep:
+    """Lines, (n, k, 3), cut one after the other."""
+    cell = WAYS["surfaces"].voxel_size
+    swept = CutSweep(empty_cut(cell))
+    for line in lines:
+        swept = add_line(swept, cut_cloud(line, EYE[2], cell))
+    return swept
+
+
+def test_lines_as_they_come(benchmark: Any) -> None:
+    """As many lines as are joined at once, in the middle of the sweep."""
+    lines = sweep().reshape(-1, 1081, 3)
+    before, cell = cut_lines(lines[: 6 * BLOCK]), WAYS["surfaces"].voxel_size
+
+    def block() -> CutSweep:
+        swept = before
+        for line in lines[6 * BLOCK : 7 * BLOCK]:
+            swept = add_line(swept, cut_cloud(line, EYE[2], cell))
+        return swept
+
+    assert not benchmark(block).lines
+    benchmark.extra_info["lines"] = BLOCK
+
+
+@pytest.mark.parametrize("waiting", [0, BLOCK - 1])
+def test_after_the_last_line(benchmark: Any, waiting: int) -> None:
+    """What is left when the last line comes, with so many lines that are not joined."""
+    lines = sweep().reshape(-1, 1081, 3)
+    lines = lines[: len(lines) // BLOCK * BLOCK - BLOCK + waiting + 1]
+    before, params = cut_lines(lines[:-1]), WAYS["surfaces"]
+
+    def last() -> PlaneSegmentation:
+        line = cut_cloud(lines[-1], EYE[2], params.voxel_size)
+        cut = finish_sweep(add_line(before, line))
+        return segment_planes(cut.points, GRAVITY, params, JVRC1.sole, EYE, cut)[0]
+
+    found = benchmark(last)
+    benchmark.extra_info["stages_ms"] = {
+        stage: round(milliseconds, 1) for stage, milliseconds in found.times_ms
+    }
+    assert len(found.staircase.treads) == 3
 
 
 @pytest.mark.parametrize("part", ["whole", "half"])

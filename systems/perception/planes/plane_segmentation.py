@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from footfall.models.robots.robot import Sole
 from footfall.models.values.perceived import PlaneSegmentation, Staircase
 from footfall.models.values.vector import Vector
+from footfall.systems.perception.planes.cut_sweep import CutCloud
 from footfall.systems.perception.planes.flights import find_flights, floor_seen
 from footfall.systems.perception.planes.levels import (
     Sampling,
@@ -190,12 +191,33 @@ def _moved(points: Vector, origin: Vector, R_GW: Vector) -> Vector:
     return points if np.array_equal(R_GW, np.eye(3)) else points @ R_GW.T
 
 
+def is_cut_for(cut: CutCloud, gravity: Vector, params: PlaneSegmenterParams) -> bool:
+    """Tells whether a cut cloud serves: of surfaces, along gravity, of a voxel's side.
+
+    Args:
+        cut: the cut cloud in W.
+        gravity: gravity in W, (3,), any length: it points down.
+        params: parameters of the segmentation.
+
+    Raises:
+        ValueError: gravity has no direction.
+    """
+    upright = np.array_equal(gravity_aligned_rotation(gravity), np.eye(3))
+    return bool(
+        params.method == "surfaces"
+        and upright
+        and cut.surfaces.cell == params.voxel_size
+        and len(cut.points)
+    )
+
+
 def segment_planes(
     points: Vector,
     gravity: Vector,
     params: PlaneSegmenterParams,
     sole: Sole,
     viewpoint: Vector | None = None,
+    cut: CutCloud | None = None,
 ) -> tuple[PlaneSegmentation, Stages]:
     """Segments a cloud into planes and finds the staircase among them.
 
@@ -207,6 +229,8 @@ def segment_planes(
         sole: of the robot; what is smaller is no plane to stand on.
         viewpoint: where the cloud was seen from, (3,), m. Without it normals are
             turned up, so that a ceiling is a plane too.
+        cut: the same cloud where it was cut line by line as it came. It stands for the
+            points if it fits (see `is_cut_for`).
 
     Returns:
         The segmentation, in W, and the intermediate results, in the gravity-aligned G.
@@ -228,18 +252,29 @@ def segment_planes(
     R_GW = gravity_aligned_rotation(gravity)
     # A cloud far away is worked on near the origin, where numbers are fine.
     origin = cloud_origin(points)
-    cloud = usable_points(_moved(np.asarray(points, dtype=np.float64), origin, R_GW))
     eye = None if viewpoint is None else R_GW @ (viewpoint - origin)
-    if eye is not None and params.method == "surfaces":
-        # Of what is higher than the eye it sees no upper side.
-        cloud = np.compress(cloud[:, 2] < eye[2], cloud, axis=0)
-    dense = len(points) > MAX_SPARSE
+    if cut is not None and (
+        viewpoint is None or np.any(origin) or not is_cut_for(cut, gravity, params)
+    ):
+        cut = None
+    if cut is not None:
+        cloud = cut.points
+    else:
+        moved = _moved(np.asarray(points, dtype=np.float64), origin, R_GW)
+        cloud = usable_points(moved)
+        if eye is not None and params.method == "surfaces":
+            # Of what is higher than the eye it sees no upper side.
+            cloud = np.compress(cloud[:, 2] < eye[2], cloud, axis=0)
+    dense = (len(points) if cut is None else cut.seen) > MAX_SPARSE
     spacing = 0.0 if dense else sparse_spacing(cloud, params.voxel_size)
     if spacing > 0.0:
         params = replace(
             params, voxel_size=min(1.1 * spacing, 0.5 * params.seed_resolution)
         )
-    surfaces = cut_columns(cloud, params.voxel_size)
+    if cut is None or spacing > 0.0:
+        surfaces = cut_columns(cloud, params.voxel_size)
+    else:
+        surfaces = cut.surfaces
     noise = 0.0 if spacing > 0.0 else level_noise(surfaces, cloud)
     sampling = Sampling(spacing, noise, drawn=noise > MUCH_NOISE)
     if sampling.drawn:

@@ -7,7 +7,11 @@ from pydrake.systems.framework import Context, LeafSystem
 from footfall.models.robots.robot import Sole
 from footfall.models.values.perceived import PlaneSegmentation
 from footfall.models.values.vector import Vector
-from footfall.systems.perception.planes.plane_segmentation import segment_planes
+from footfall.systems.perception.planes.cut_sweep import CutCloud, empty_cut
+from footfall.systems.perception.planes.plane_segmentation import (
+    is_cut_for,
+    segment_planes,
+)
 from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterParams
 from footfall.systems.ports import eval_abstract, eval_vector
 from footfall.systems.timing import timed
@@ -26,6 +30,7 @@ class PlaneSegmenter(LeafSystem):
         - cloud
         - gravity
         - viewpoint
+        - cut_cloud
         output_ports:
         - segmentation
 
@@ -34,6 +39,9 @@ class PlaneSegmenter(LeafSystem):
       the acceleration sensor; our closed loop gives a constant.
     - `viewpoint`: p_WSensor, (3,), m, where the cloud was seen from; need not be
       connected, but then normals are turned up, so that a ceiling is a plane too.
+    - `cut_cloud`: the same cloud where it was cut line by line as it came, CutCloud in
+      W; need not be connected. Where it fits the parameters and gravity it stands for
+      the cloud; a subclass with a `segment` of its own does without it.
     - `segmentation`: PlaneSegmentation in W; empty where the cloud is.
     """
 
@@ -57,6 +65,9 @@ class PlaneSegmenter(LeafSystem):
         )
         self._gravity = self.DeclareVectorInputPort("gravity", 3)
         self._viewpoint = self.DeclareVectorInputPort("viewpoint", 3)
+        self._cut = self.DeclareAbstractInputPort(
+            "cut_cloud", AbstractValue.Make(empty_cut(1.0))
+        )
         self.DeclareAbstractOutputPort(
             "segmentation",
             lambda: AbstractValue.Make(PlaneSegmentation()),
@@ -65,19 +76,35 @@ class PlaneSegmenter(LeafSystem):
                 self._cloud.ticket(),
                 self._gravity.ticket(),
                 self._viewpoint.ticket(),
+                self._cut.ticket(),
             },
         )
 
     def _calc_segmentation(self, context: Context, segmentation: AbstractValue) -> None:
-        cloud = eval_abstract(self._cloud, context, PointCloud)
-        points: Vector = cloud.xyzs().T.astype(float)
         gravity = eval_vector(self._gravity, context)
         viewpoint = (
             eval_vector(self._viewpoint, context)
             if self._viewpoint.HasValue(context)
             else None
         )
+        cut = self._fitting_cut(context, gravity)
+        if cut is not None and viewpoint is not None:
+            found, _ = segment_planes(
+                cut.points, gravity, self.params, self._sole, viewpoint, cut
+            )
+            segmentation.set_value(found)
+            return
+        cloud = eval_abstract(self._cloud, context, PointCloud)
+        points: Vector = cloud.xyzs().T.astype(float)
         segmentation.set_value(self.segment(points, gravity, viewpoint))
+
+    def _fitting_cut(self, context: Context, gravity: Vector) -> CutCloud | None:
+        """Gives the cut cloud; None where it does not serve or is not asked for."""
+        own_way = type(self).segment is not PlaneSegmenter.segment
+        if own_way or not self._cut.HasValue(context):
+            return None
+        cut = eval_abstract(self._cut, context, CutCloud)
+        return cut if is_cut_for(cut, gravity, self.params) else None
 
     def segment(
         self, points: Vector, gravity: Vector, viewpoint: Vector | None

@@ -60,7 +60,7 @@ class Patch:
 
 def fit_plane(points: Vector) -> tuple[Vector, Vector]:
     """Fits the least-squares plane of (n, 3) points: mean and upward unit normal."""
-    mean = points.mean(axis=0)
+    mean = np.ones(len(points)) @ points / len(points)
     offset = points - mean
     normal = np.linalg.eigh(offset.T @ offset)[1][:, 0]
     return mean, np.asarray(normal if normal[2] >= 0.0 else -normal)

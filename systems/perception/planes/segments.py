@@ -13,7 +13,11 @@ from footfall.models.values.perceived import (
     Staircase,
 )
 from footfall.models.values.vector import Vector
-from footfall.systems.perception.planes.planes import Patch, plane_axes
+from footfall.systems.perception.planes.planes import (
+    Patch,
+    outer_points,
+    plane_axes,
+)
 from footfall.systems.perception.planes.treads import (
     Tread,
     stair_rotation,
@@ -61,6 +65,7 @@ def tread_segment(
         return np.column_stack([xy, z])
 
     inside = np.clip(tread.points[:, :2], tread.low, tread.high)
+    inside = outer_points(inside)
     outline = inside[ConvexHull(inside).vertices]
     area = voxel_area(tread, rotation, voxel_size)
     middle = on_plane((tread.low + tread.high)[None] / 2.0)[0]

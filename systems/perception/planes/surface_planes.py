@@ -19,6 +19,7 @@ from footfall.systems.perception.planes.planes import (
 from footfall.systems.perception.planes.surfaces import (
     Surfaces,
     connect_pieces,
+    find_columns,
     neighbours,
 )
 
@@ -88,7 +89,9 @@ def _fit_flat(
     """Fits planes by least squares; returns the clusters that have none as well."""
     planes: list[FittedPlane] = []
     uneven = np.full(len(clusters), -1, dtype=np.int64)
-    order = np.argsort(clusters, kind="stable")
+    # The few numbers of clusters are sorted by radix.
+    few = clusters.max(initial=-1) < np.iinfo(np.int16).max
+    order = np.argsort(clusters.astype(np.int16) if few else clusters, kind="stable")
     bounds = np.searchsorted(clusters[order], np.arange(clusters.max(initial=-1) + 2))
     for begin, end in pairwise(bounds):
         members = order[begin:end]
@@ -98,7 +101,7 @@ def _fit_flat(
         if np.count_nonzero(inside) < FLAT * len(members):
             uneven[members] = clusters[members]
             continue
-        point, normal = fit_plane(mean[inside])
+        point, normal = fit_plane(np.compress(inside, mean, axis=0))
         inside = np.abs((mean - point) @ normal) <= tolerance
         planes.append(FittedPlane(point, normal, members[inside]))
     return planes, uneven
@@ -192,59 +195,58 @@ def grow_rims(
     level, inside = np.zeros(total, dtype=bool), np.zeros(total, dtype=bool)
     for plane in planes:
         level[plane.inliers] = True
+    others = np.flatnonzero(~level)
     of_planes = []
     for plane in planes:
-        cells, of_piece, inner = _inner_columns(column[plane.inliers], surfaces.width)
-        inside[plane.inliers] = inner[of_piece]
-        rim = _columns_about(cells[~inner], cells, surfaces.width)
-        begin = np.searchsorted(column, rim)
-        end = np.searchsorted(column, rim, side="right")
-        pieces = np.repeat(begin, end - begin)
-        pieces += np.arange(len(pieces)) - np.repeat(
-            np.cumsum(end - begin) - (end - begin), end - begin
-        )
-        offset = surfaces.mean[pieces, :2] - plane.point[:2]
+        own = column[plane.inliers]
+        if len(own) > MANY_PIECES:
+            inside[plane.inliers] = _inner_columns(own, surfaces.width)
+        offset = surfaces.mean[others, :2] - plane.point[:2]
         z = plane.point[2] - offset @ plane.normal[:2] / plane.normal[2]
-        crossed = (surfaces.low[pieces] <= z + tolerance) & (
-            surfaces.high[pieces] >= z - tolerance
+        crossed = (surfaces.low[others] <= z + tolerance) & (
+            surfaces.high[others] >= z - tolerance
         )
-        pieces = pieces[crossed & ~level[pieces]]
-        of_planes.append(np.sort(np.concatenate([plane.inliers, pieces])))
+        rim = others[crossed]
+        rim = rim[_touch(column[rim], own, surfaces.width)]
+        both = np.concatenate([plane.inliers, rim])
+        of_planes.append(np.sort(both, kind="stable"))
     return of_planes, inside
 
 
-def _inner_columns(
-    columns: NDArray[np.int64], width: int
-) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.bool]]:
-    """Lists columns once each and tells which have others of them on all four sides.
+def _inner_columns(columns: NDArray[np.int64], width: int) -> NDArray[np.bool]:
+    """Tells which columns have others of them on all four sides, (k,).
 
     Args:
         columns: keys, (k,), ascending and maybe repeated.
         width: by how much those of neighbours along x differ.
-
-    Returns:
-        The columns, (c,), the place of each of the k among them, and the mask, (c,).
     """
     new = np.diff(columns, prepend=-1) > 0
     cells, place = columns[new], np.cumsum(new) - 1
     inner = np.zeros(len(cells), dtype=bool)
     inner[1:-1] = cells[2:] - cells[:-2] == 2
-    for shift in (-width, width):
-        at = np.minimum(np.searchsorted(cells, cells + shift), len(cells) - 1)
-        inner &= cells[at] == cells + shift
-    return cells, place, inner
+    sides = cells + np.array([[-width], [width]])
+    inner &= np.all(_are_among(sides, cells), axis=0)
+    return np.asarray(inner[place])
 
 
-def _columns_about(
-    rim: NDArray[np.int64], cells: NDArray[np.int64], width: int
-) -> NDArray[np.int64]:
-    """Finds the columns that touch some of the rim, (r,), and are none of the cells."""
-    shifts = np.array([-1, 0, 1])
-    around = (shifts[:, None] * width + shifts).ravel()
-    outer = np.sort((rim[:, None] + around).ravel())
-    outer = outer[np.diff(outer, prepend=-1) > 0]
-    at = np.minimum(np.searchsorted(cells, outer), len(cells) - 1)
-    return np.asarray(outer[cells[at] != outer])
+def _touch(
+    columns: NDArray[np.int64], cells: NDArray[np.int64], width: int
+) -> NDArray[np.bool]:
+    """Tells which columns, (k,), are beside some of the cells and none of them."""
+    # The three neighbours of a row have keys that follow each other.
+    rows = columns + np.array([[-width], [0], [width]])
+    at = find_columns(cells, np.stack([rows - 1, rows]).reshape(6, -1))
+    there = np.append(cells, np.iinfo(np.int64).max)[at]
+    beside = np.any(there[:3] <= rows + 1, axis=0)
+    return np.asarray(beside & (there[4] != columns))
+
+
+def _are_among(
+    columns: NDArray[np.int64], cells: NDArray[np.int64]
+) -> NDArray[np.bool]:
+    """Tells which columns, of any shape, are some of the cells, (c,), ascending."""
+    at = np.minimum(find_columns(cells, columns), len(cells) - 1)
+    return np.asarray(cells[at] == columns)
 
 
 def bound_surfaces(

@@ -26,6 +26,9 @@ Z_STEP = 2.5e-4
 """Heights are sorted to this, m."""
 HALF = ((0, 1), (1, -1), (1, 0), (1, 1))
 """Neighbouring columns, each pair once."""
+TABLE = 32
+"""Places in a table of columns for each that is in it, at most: rooms are filled by a
+third, a cloud of few points far apart needs a search."""
 ALONE = 3
 """A piece with fewer level neighbours of eight bridges nothing."""
 MIN_NOISE_POINTS = 3
@@ -42,6 +45,8 @@ class Surfaces:
     """Where in `order` each of m pieces begins, and n, (m + 1,)."""
     column: NDArray[np.int64]
     """Key of each piece's column, (m,), ascending."""
+    corner: tuple[int, int]
+    """The column with key 0, by its x and y in sides of a column."""
     width: int
     """By how much the keys of columns differ that are neighbours along x."""
     cell: float
@@ -61,8 +66,7 @@ class Surfaces:
     def points_of(self, pieces: NDArray[np.int64]) -> NDArray[np.int64]:
         """Returns the indices of the points of some pieces, (k,)."""
         begin, count = self.first[pieces], self.first[pieces + 1] - self.first[pieces]
-        shift = np.repeat(begin - np.cumsum(count) + count, count)
-        return self.order[shift + np.arange(len(shift))]
+        return self.order[spread(begin, count)]
 
 
 def cut_columns(points: Vector, cell: float) -> Surfaces:
@@ -77,27 +81,27 @@ def cut_columns(points: Vector, cell: float) -> Surfaces:
         none = np.zeros(0, dtype=np.int64)
         empty = np.zeros(0)
         return Surfaces(
-            none, np.zeros(1, np.int64), none, 1, cell, np.zeros((0, 3)), empty, empty
+            order=none,
+            first=np.zeros(1, np.int64),
+            column=none,
+            corner=(0, 0),
+            width=1,
+            cell=cell,
+            mean=np.zeros((0, 3)),
+            low=empty,
+            high=empty,
         )
     x = np.floor(points[:, 0] * (1.0 / cell)).astype(np.int64)
     y = np.floor(points[:, 1] * (1.0 / cell)).astype(np.int64)
     # An empty column at either side keeps neighbours of the rim from wrapping around.
-    x -= x.min() - 1
-    y -= y.min() - 1
+    corner = int(x.min()) - 1, int(y.min()) - 1
+    x -= corner[0]
+    y -= corner[1]
     width = int(y.max()) + 2
     z = points[:, 2]
-    height = ((z - z.min()) * (1.0 / Z_STEP)).astype(np.int64)
-    key = (x * width + y) * (int(height.max()) + 1) + height
-    bits = n.bit_length()
-    if int(key.max()) < 1 << (62 - bits):
-        # Sorted with their places in one number: twice as fast as an argsort.
-        packed = np.sort(key << bits | np.arange(n))
-        order = packed & ((1 << bits) - 1)
-        key = packed >> bits
-    else:
-        order = np.argsort(key, kind="stable")
-        key = key[order]
-    column, height = np.divmod(key, int(height.max()) + 1)
+    height = steps(z)
+    order = np.lexsort((narrow(height - height.min()), narrow(y), narrow(x)))
+    column, height = (x * width + y)[order], height[order]
     new = np.ones(n, dtype=bool)
     np.not_equal(column[1:], column[:-1], out=new[1:])
     new[1:] |= height[1:] - height[:-1] > round(GAP / Z_STEP)
@@ -110,12 +114,30 @@ def cut_columns(points: Vector, cell: float) -> Surfaces:
         order=order,
         first=ends,
         column=column[first],
+        corner=corner,
         width=width,
         cell=cell,
         mean=np.column_stack(sums) / count[:, None],
         low=z[order[first]],
         high=z[order[ends[1:] - 1]],
     )
+
+
+def spread(begin: NDArray[np.int64], count: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Lists `count` numbers from each of some beginnings on, one list after another."""
+    shift = np.repeat(begin - np.cumsum(count) + count, count)
+    shift += np.arange(len(shift))
+    return shift
+
+
+def steps(z: Vector) -> NDArray[np.int64]:
+    """Counts heights, (n,), m, in steps of `Z_STEP`."""
+    return np.floor(z * (1.0 / Z_STEP)).astype(np.int64)
+
+
+def narrow(values: NDArray[np.int64]) -> NDArray[np.integer]:
+    """Stores numbers from 0 on in 16 bits if they fit: those are sorted by radix."""
+    return values.astype(np.uint16) if values.max() < 1 << 16 else values
 
 
 def level_noise(surfaces: Surfaces, points: Vector) -> float:
@@ -151,19 +173,47 @@ def neighbours(
         Places in `level`, (p, 2), each pair once.
     """
     z, column = surfaces.mean[level, 2], surfaces.column[level]
-    span = float(np.ptp(z)) + 4.0 * offset if len(z) else 1.0
-    base = float(z.min(initial=np.inf)) - 2.0 * offset
-    place = column * span + (z - base)
-    pairs = []
-    number = np.arange(len(level))
-    for dx, dy in HALF:
-        target = (column + dx * surfaces.width + dy) * span + (z - base) - offset
-        start = np.searchsorted(place, target)
-        for step in (0, 1):
-            at = np.minimum(start + step, len(level) - 1)
-            near = (start + step < len(level)) & (place[at] - target <= 2.0 * offset)
-            pairs.append(np.column_stack([number[near], at[near]]))
-    return np.concatenate(pairs)
+    beside = np.array([dx * surfaces.width + dy for dx, dy in HALF])[:, None]
+    starts = find_columns(column, column + beside)
+    column = np.append(column, -1)
+    goes_on = column[1:] == column[:-1]
+    first, second = [], []
+    for at, shift in zip(starts, beside, strict=True):
+        here = np.flatnonzero(column[at] == column[:-1] + shift)
+        at = at[here]
+        while len(here):
+            above = z[at] - z[here]
+            near = np.abs(above) <= offset
+            first.append(here[near])
+            second.append(at[near])
+            # The pieces of a column are from low to high: the next may be near too.
+            more = np.flatnonzero((above <= offset) & goes_on[at])
+            at, here = at[more] + 1, here[more]
+    pairs = np.zeros((2, sum(map(len, first))), dtype=np.int64)
+    if first:
+        np.concatenate(first, out=pairs[0])
+        np.concatenate(second, out=pairs[1])
+    return pairs.T
+
+
+def find_columns(
+    columns: NDArray[np.int64], sought: NDArray[np.int64]
+) -> NDArray[np.int64]:
+    """Finds where columns begin in a list of them: `np.searchsorted`, by a table.
+
+    Args:
+        columns: keys, (m,), ascending and maybe repeated.
+        sought: keys, of any shape.
+
+    Returns:
+        Place of the first of the m keys that is no less than each sought one.
+    """
+    if not len(columns) or columns[-1] - columns[0] > TABLE * (len(columns) + 1000):
+        return np.searchsorted(columns, sought)
+    least, most = int(columns[0]), int(columns[-1])
+    counts = np.bincount(columns - least, minlength=most - least + 2)
+    table = np.cumsum(counts) - counts
+    return np.asarray(table[np.clip(sought, least, most + 1) - least])
 
 
 def cluster_surfaces(
@@ -208,15 +258,34 @@ def connect_pieces(
         Cluster of each piece, (m,); -1 for none.
     """
     result = np.full(len(surfaces.column), -1, dtype=np.int64)
-    linked = np.bincount(pairs.ravel(), minlength=len(level)) >= ALONE
-    pairs = pairs[linked[pairs[:, 0]] & linked[pairs[:, 1]]]
-    graph = coo_array(
-        (np.ones(len(pairs), dtype=np.int8), (pairs[:, 0], pairs[:, 1])),
-        shape=(len(level), len(level)),
-    )
-    label = connected_components(graph, directed=False)[1]
+    a, b = pairs[:, 0], pairs[:, 1]
+    degree = np.bincount(a, minlength=len(level)) + np.bincount(b, minlength=len(level))
+    linked = degree >= ALONE
+    kept = linked[a] & linked[b]
+    label = _connected(a[kept], b[kept], len(level))
     large = np.bincount(label[linked], minlength=len(level)) * surfaces.cell**2
     kept = linked & (large[label] >= min_area)
     number = np.cumsum(np.bincount(label[kept], minlength=len(level)) > 0) - 1
     result[level[kept]] = number[label[kept]]
     return result
+
+
+def _connected(
+    a: NDArray[np.int64], b: NDArray[np.int64], count: int
+) -> NDArray[np.int64]:
+    """Numbers what hangs together by pairs (a, b) of `count` things, (count,).
+
+    Things that follow each other and are linked are one before the others are looked
+    at: of the links among rows of columns few are left.
+    """
+    follows = np.zeros(count, dtype=bool)
+    follows[b[b == a + 1]] = True
+    run = np.cumsum(~follows) - 1
+    a, b = run[a], run[b]
+    new = a != b
+    new[1:] &= (a[1:] != a[:-1]) | (b[1:] != b[:-1])
+    a, b = a[new], b[new]
+    graph = coo_array(
+        (np.ones(len(a), dtype=np.int8), (a, b)), shape=(run[-1] + 1, run[-1] + 1)
+    )
+    return np.asarray(connected_components(graph, directed=False)[1][run])

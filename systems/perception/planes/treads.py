@@ -27,7 +27,9 @@ from footfall.systems.perception.planes.tread_points import (
     SLAB,
     TreadPoints,
     points_near,
+    span,
     tread_points,
+    within,
 )
 
 BIN = 0.03
@@ -93,10 +95,15 @@ def voxel_area(tread: Tread, rotation: Vector, voxel_size: float) -> float:
         rotation: R_GS, (3, 3).
         voxel_size: v, m.
     """
-    xy, margin = tread.points[:, :2], RIM * voxel_size
-    inside = np.all((xy >= tread.low - margin) & (xy <= tread.high + margin), axis=1)
-    cells = np.floor(tread.points[inside] @ rotation.T / voxel_size).astype(np.int64)
-    count = len(np.unique(cells[:, 0] * (1 << 32) + cells[:, 1]))
+    margin = RIM * voxel_size
+    points = within(tread.points, tread.low - margin, tread.high + margin)
+    if not len(points):
+        return 0.0
+    cells = np.floor(points @ rotation.T[:, :2] * (1.0 / voxel_size)).astype(np.int64)
+    cells -= span(cells)[0]
+    occupied = np.zeros(span(cells)[1] + 1, dtype=bool)
+    occupied[cells[:, 0], cells[:, 1]] = True
+    count = int(np.count_nonzero(occupied))
     return count * voxel_size**2 / max(float(tread.normal[2]), 0.1)
 
 
@@ -264,8 +271,8 @@ def _bound(
     rim = (x > front + 0.02) & (x < back - 0.02) & (y > right) & (y < left)
     if np.count_nonzero(rim) >= MIN_FACE_POINTS:
         point, normal = fit_plane(slab[rim])
-    lower = about.lower @ rotation
-    before = _between(lower[lower[:, 0] < front + BIN], right, left)
+    before = _between(about.lower @ rotation, right, left)
+    before = before[before < front + BIN]
     return Tread(
         low=np.array([front, right]),
         high=np.array([back, left]),
@@ -326,8 +333,8 @@ def _hanging_together(slab: Vector, core: Vector, size: float) -> Vector:
     """
     both = np.concatenate([slab, core])[:, :2]
     cells = np.floor(both / size).astype(np.int64)
-    cells -= cells.min(axis=0) - 1
-    occupied = np.zeros(cells.max(axis=0) + 2, dtype=bool)
+    cells -= span(cells)[0] - 1
+    occupied = np.zeros(span(cells)[1] + 2, dtype=bool)
     occupied[cells[:, 0], cells[:, 1]] = True
     label, count = ndimage.label(occupied, np.ones((3, 3)))
     of_point = label[cells[:, 0], cells[:, 1]]
@@ -337,7 +344,7 @@ def _hanging_together(slab: Vector, core: Vector, size: float) -> Vector:
     main = slab[own[of_slab]]
     if not len(main):
         return core
-    (front, right), (back, left) = main[:, :2].min(axis=0), main[:, :2].max(axis=0)
+    (front, right), (back, left) = span(main[:, :2])
     for number in np.unique(of_slab[~own[of_slab]]):
         piece = slab[of_slab == number, :2]
         if len(piece) < MIN_FACE_POINTS:

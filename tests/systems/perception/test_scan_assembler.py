@@ -11,6 +11,7 @@ from pydrake.trajectories import PiecewisePolynomial
 
 from footfall.models.scenes.room import RoomParams
 from footfall.models.scenes.solids import Box, triangle_mesh, upright_pose
+from footfall.systems.perception.planes.cut_sweep import CutCloud, cut_cloud
 from footfall.systems.perception.scan_assembler import (
     ScanAssembler,
     ScanAssemblerParams,
@@ -28,16 +29,22 @@ CHEST_MESH = triangle_mesh(
 )
 
 
-def _cloud(
-    params: TiltingLidarParams, *, own: bool, at: float, filtered: bool = True
-) -> tuple[np.ndarray, int]:
-    """Cloud and count of sweeps in an empty room at a time; two sweeps are asked for.
+def _outputs(
+    params: TiltingLidarParams,
+    *,
+    own: bool,
+    at: float,
+    filtered: bool = True,
+    cell: float | None = None,
+) -> tuple[np.ndarray, int, CutCloud]:
+    """Cloud, count of sweeps and cut cloud in an empty room; two sweeps are asked for.
 
     Args:
         params: the scanner.
         own: whether a chest hangs in front of the scanner.
         at: time, s.
         filtered: whether the assembler knows of the chest.
+        cell: side of columns, m; None for none.
     """
     builder = DiagramBuilder()
     poses = builder.AddSystem(ConstantValueSource(AbstractValue.Make(POSES)))
@@ -64,6 +71,7 @@ def _cloud(
             mount_body=HEAD,
             X_BM=X_BM,
             own_boxes=[box_around(CHEST, CHEST_MESH.vertices)] if filtered else [],
+            cell=cell,
         )
     )
     for system in (lidar, assembler):
@@ -76,7 +84,15 @@ def _cloud(
     context = assembler.GetMyContextFromRoot(simulator.get_context())
     cloud = assembler.GetOutputPort("cloud").Eval(context)
     sweep = assembler.GetOutputPort("sweep").Eval(context)
-    return cloud.xyzs().T.copy(), int(sweep[0])
+    cut = assembler.GetOutputPort("cut_cloud").Eval(context)
+    return cloud.xyzs().T.copy(), int(sweep[0]), cut
+
+
+def _cloud(
+    params: TiltingLidarParams, *, own: bool, at: float, filtered: bool = True
+) -> tuple[np.ndarray, int]:
+    """Cloud and count of sweeps, as of `_outputs`."""
+    return _outputs(params, own=own, at=at, filtered=filtered)[:2]
 
 
 COARSE = TiltingLidarParams(tilt_step_deg=4.0, noise=0.0)
@@ -188,3 +204,28 @@ def test_wrong_parameter_is_named(params: ScanAssemblerParams, message: str) -> 
     """Every field that can be wrong is refused under its name."""
     with pytest.raises(ValueError, match=message):
         params.validate()
+
+
+def test_the_cut_cloud_is_the_cloud_below_the_scanner() -> None:
+    """Line by line as a whole, of the last finished sweep, without the robot."""
+    height = 1.65
+    before = _outputs(COARSE, own=True, at=0.375, cell=0.02)[2]
+    assert not len(before.points)
+    cloud, _, cut = _outputs(COARSE, own=True, at=0.5, cell=0.02)
+    assert np.all(cut.points[:, 2] < height + 1e-9)
+    # Beams along the servo's axis are at the scanner's height but for rounding, and
+    # the port carries floats of 32 bits.
+    low = cloud[cloud[:, 2] < height - 1e-5]
+    assert 1000 < len(low) < len(cloud) == cut.seen
+    lower = cut.points[cut.points[:, 2] < height - 1e-5]
+    np.testing.assert_allclose(lower, low, atol=1e-6)
+    whole = cut_cloud(cut.points, np.inf, 0.02).surfaces
+    np.testing.assert_array_equal(cut.surfaces.column, whole.column)
+    np.testing.assert_array_equal(cut.surfaces.first, whole.first)
+    later = _outputs(COARSE, own=True, at=0.9, cell=0.02)[2]
+    assert later.seen == cut.seen
+
+
+def test_nothing_is_cut_where_nobody_asks() -> None:
+    """Without a side of columns the port is empty."""
+    assert not len(_outputs(COARSE, own=False, at=0.5)[2].points)
