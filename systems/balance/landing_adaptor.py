@@ -31,6 +31,9 @@ class LandingParams(Parameters):
     """After lift-off no touch counts for this long, s: the foot still leaves."""
     search_speed: float = number(0.10, "m/s", above=0.0)
     """Speed at which a foot that missed the ground goes on down, m/s."""
+    search_acceleration: float = number(0.5, "m/s^2", above=0.0)
+    """How fast it takes that speed up, m/s^2: most ground is missed by less than a
+    millimetre, and a leg that is heavy by its gears strikes it."""
     search_depth: float = number(0.03, "m", least=0.0)
     """How far it does so, m; then it is taken for landed, as deep ground is a plan's
     business."""
@@ -61,6 +64,8 @@ class FootState:
     """Whether it stands on ground that it has felt."""
     lifted_for: float
     """Time since the plan lifted it, s; 0 while it is to stand."""
+    searching: float
+    """Speed at which it looks for the ground below its plan, m/s."""
 
 
 def adapt(
@@ -88,13 +93,14 @@ def adapt(
     """
     offset, sag, held, landed = state.offset, state.sag, state.held, state.landed
     slack = state.slack * (1.0 - min(1.0, params.period / params.settle_time))
-    lifted_for = 0.0
+    lifted_for = searching = 0.0
     if not contact:
         lifted_for = state.lifted_for + params.period
         if state.lifted_for == 0.0:
             landed = False
         if not landed:
-            slack = np.zeros(6)
+            # What is left of it goes with the rest of where the foot stood.
+            offset, slack = offset + slack, np.zeros(6)
             offset = offset * (1.0 - min(1.0, params.period / params.release_time))
             sag = state.sag + params.swing_gain * params.period * (planned - measured)
             sag = np.clip(sag, -params.swing_limit, params.swing_limit)
@@ -112,13 +118,15 @@ def adapt(
             slack = offset + sag - (_level(measured) - planned)
             offset, sag = _level(measured) - planned, np.zeros(6)
         else:
+            faster = state.searching + params.search_acceleration * params.period
+            searching = min(params.search_speed, faster)
             offset = offset.copy()
-            offset[2] -= params.search_speed * params.period
+            offset[2] -= searching * params.period
             rate = rate.copy()
-            rate[2] -= params.search_speed
+            rate[2] -= searching
     if slack.any():
         rate = rate - slack / params.settle_time
-    after = FootState(offset, sag, held, slack, landed, lifted_for)
+    after = FootState(offset, sag, held, slack, landed, lifted_for, searching)
     return after, planned + offset + sag + slack, rate
 
 
@@ -132,10 +140,10 @@ def _level(pose: Vector) -> Vector:
 def standing() -> FootState:
     """Makes the state of a foot that stands where its plan says."""
     nothing: Vector = np.zeros(6)
-    return FootState(nothing, nothing, nothing, nothing, True, 0.0)
+    return FootState(nothing, nothing, nothing, nothing, True, 0.0, 0.0)
 
 
-_SIZE = 26
+_SIZE = 27
 
 
 def _pack(state: FootState) -> Vector:
@@ -145,7 +153,7 @@ def _pack(state: FootState) -> Vector:
             state.sag,
             state.held,
             state.slack,
-            [float(state.landed), state.lifted_for],
+            [float(state.landed), state.lifted_for, state.searching],
         ]
     )
 
@@ -158,6 +166,7 @@ def _unpack(values: Vector) -> FootState:
         values[18:24],
         values[24] > 0.5,
         values[25],
+        values[26],
     )
 
 
@@ -189,7 +198,7 @@ class LandingAdaptor(LeafSystem):
     - `contacts` (output): like the input, but a foot counts when it has landed.
 
     The discrete state is, a foot, (offset (6), sag (6), held pose (6), slack (6),
-    landed, time since lift-off), then the plan's start; and both outputs.
+    landed, time since lift-off, speed of the search), then the plan's start; and both outputs.
     """
 
     def __init__(self, params: LandingParams, foot_poses: Vector) -> None:
