@@ -198,7 +198,8 @@ class LandingAdaptor(LeafSystem):
     - `contacts` (output): like the input, but a foot counts when it has landed.
 
     The discrete state is, a foot, (offset (6), sag (6), held pose (6), slack (6),
-    landed, time since lift-off, speed of the search), then the plan's start; and both outputs.
+    landed, time since lift-off, speed of the search), then the plan's start; and both
+    outputs.
     """
 
     def __init__(self, params: LandingParams, foot_poses: Vector) -> None:

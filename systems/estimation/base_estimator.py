@@ -23,6 +23,7 @@ from footfall.systems.estimation.invariant_ekf import (
     FilterParams,
     FootPose,
     Rows,
+    filter_model,
     hold_feet,
     initial_estimate,
     propagate,
@@ -170,13 +171,15 @@ class BaseEstimator(LeafSystem):
         super().__init__()
         params.validate()
         self._plant, self._params, self._period = plant, params, period
-        self._blind = replace(
-            params, gyroscope=BLIND_TURN, accelerometer=BLIND_ACCELERATION
-        )
         self._base = plant.GetBodyByName(robot.base_body)
         self._feet = [plant.GetBodyByName(robot.foot_bodies[foot]) for foot in FEET]
         self._p_AF: Vector = np.array([0.0, 0.0, -robot.sole.ankle_height])
         self._gravity = float(np.linalg.norm(plant.gravity_field().gravity_vector()))
+        self._model = filter_model(params, self._gravity)
+        self._blind = filter_model(
+            replace(params, gyroscope=BLIND_TURN, accelerometer=BLIND_ACCELERATION),
+            self._gravity,
+        )
         self._joints_count = plant.num_positions() - 7
         self._level = np.concatenate([[1.0], np.zeros(6)])
         R_WB = _rotation(positions[:4])
@@ -225,8 +228,7 @@ class BaseEstimator(LeafSystem):
             rate,
             force,
             duration,
-            self._params,
-            self._gravity,
+            self._model,
             at_rest=bool(np.abs(speeds).max() < self._params.rest_speed),
         )
         left, right = eval_vector(self._bearing, context).tolist()
@@ -234,7 +236,7 @@ class BaseEstimator(LeafSystem):
             estimate,
             self._foot_poses(context),
             (left > 0.5, right > 0.5),
-            self._params,
+            self._model,
         )
         acceleration = estimate.R_WB @ (force - estimate.accelerometer_bias)
         acceleration[2] -= self._gravity
@@ -258,14 +260,13 @@ class BaseEstimator(LeafSystem):
             hanging + estimate.accelerometer_bias,
             self._period,
             self._blind,
-            self._gravity,
         )
         left, right = eval_vector(self._bearing, context).tolist()
         estimate = hold_feet(
             estimate,
             self._foot_poses(context),
             (left > 0.5, right > 0.5),
-            self._params,
+            self._model,
         )
         rate = log_rotation(before.T @ estimate.R_WB) / self._period
         return _Now(

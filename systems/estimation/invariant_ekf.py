@@ -11,14 +11,16 @@ b_g, b_a. Its error is right-invariant, in W: X_est X^-1 = exp(xi), C_est C^-1 =
 exp(xi_C), b_est - b; its 27 elements are in the order of `Rows`.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from footfall.models.values.validation import Parameters, number
 from footfall.models.values.vector import Vector
+from footfall.systems.balance.zmp_preview import GRAVITY
 from footfall.systems.estimation.rotations import (
+    SKEWS,
     exp_rotation,
     left_jacobian,
     log_rotation,
@@ -101,8 +103,7 @@ class FootPose(NamedTuple):
     """(3, 3)."""
 
 
-@dataclass(frozen=True)
-class BaseEstimate:
+class BaseEstimate(NamedTuple):
     """What the filter believes, and how well it knows it."""
 
     R_WB: Vector
@@ -115,16 +116,60 @@ class BaseEstimate:
     """Where the feet stand, left and right, (2, 3), m."""
     R_WF: Vector
     """How they stand, (2, 3, 3)."""
-    standing: tuple[bool, bool]
-    """Which of the feet the filter holds on to."""
     gyroscope_bias: Vector
     """(3,), rad/s."""
     accelerometer_bias: Vector
     """(3,), m/s^2."""
     covariance: Vector
     """Of the error, (27, 27)."""
+    standing: tuple[bool, bool] = (False, False)
+    """Which of the feet the filter holds on to."""
     slips: tuple[int, int] = (0, 0)
     """How often each foot has been found away from where it stood."""
+
+
+class FilterModel(NamedTuple):
+    """The filter's parameters as its equations take them, and gravity."""
+
+    inertial: Vector
+    """Deviations of gyroscope and accelerometer, per root Hz, (6,)."""
+    wander: Vector
+    """Variances that feet and biases gain in a second while the robot moves, (27,)."""
+    rest_wander: Vector
+    """The same while it does not, (27,)."""
+    foot: Vector
+    """Variances of a sole seen from the base, position then turn, (6,)."""
+    slip_gate: float
+    gravity: float
+    """m/s^2."""
+
+
+def filter_model(params: FilterParams, gravity: float = GRAVITY) -> FilterModel:
+    """Lays the parameters out for the filter.
+
+    Args:
+        params: of the filter.
+        gravity: m/s^2.
+    """
+    walks = np.zeros(SIZE)
+    walks[Rows.b_g] = params.gyroscope_walk**2
+    walks[Rows.b_a] = params.accelerometer_walk**2
+    wander, rest_wander = walks.copy(), walks
+    for rows, creep, turn in (
+        (wander, params.contact, params.contact_turn),
+        (rest_wander, params.rest_contact, params.rest_contact_turn),
+    ):
+        for i in range(2):
+            rows[Rows.d[i]] = creep**2
+            rows[Rows.C[i]] = turn**2
+    return FilterModel(
+        np.repeat([params.gyroscope, params.accelerometer], 3),
+        wander,
+        rest_wander,
+        np.repeat([params.foot_position**2, params.foot_turn**2], 3),
+        params.slip_gate,
+        gravity,
+    )
 
 
 def initial_estimate(R_WB: Vector, p_WB: Vector, params: FilterParams) -> BaseEstimate:
@@ -137,14 +182,13 @@ def initial_estimate(R_WB: Vector, p_WB: Vector, params: FilterParams) -> BaseEs
         p_WB: (3,), m.
         params: deviations at the start.
     """
-    covariance: Vector = np.zeros((SIZE, SIZE))
     deviations: Vector = np.zeros(SIZE)
     deviations[Rows.R] = (params.start_tilt, params.start_tilt, 1e-6)
     deviations[Rows.v] = 1e-2
     deviations[Rows.p] = 1e-6
     deviations[Rows.b_g] = params.start_gyroscope_bias
     deviations[Rows.b_a] = params.start_accelerometer_bias
-    covariance[np.diag_indices(SIZE)] = deviations**2
+    covariance: Vector = np.diag(deviations**2)
     # The tilt is about the base, not about W's origin: xi_p = -[xi_R]p is kept small.
     lever = skew(p_WB)
     turn = covariance[Rows.R, Rows.R]
@@ -158,7 +202,6 @@ def initial_estimate(R_WB: Vector, p_WB: Vector, params: FilterParams) -> BaseEs
         p_WB=p_WB,
         p_WF=np.zeros((2, 3)),
         R_WF=np.stack([np.eye(3)] * 2),
-        standing=(False, False),
         gyroscope_bias=nothing,
         accelerometer_bias=nothing,
         covariance=covariance,
@@ -170,8 +213,7 @@ def propagate(
     angular_rate: Vector,
     specific_force: Vector,
     duration: float,
-    params: FilterParams,
-    gravity: float,
+    model: FilterModel,
     at_rest: bool = False,
 ) -> BaseEstimate:
     """Carries the estimate on by what the IMU felt (Sec. V-B, VI-B).
@@ -181,48 +223,39 @@ def propagate(
         angular_rate: mean of the gyroscope, in B, (3,), rad/s.
         specific_force: mean of the accelerometer, in B, (3,), m/s^2.
         duration: for how long, s.
-        params: noise.
-        gravity: m/s^2.
+        model: noise and gravity.
         at_rest: whether no joint moves.
     """
-    R, v, p = estimate.R_WB, estimate.v_WB, estimate.p_WB
-    turn: Vector = (angular_rate - estimate.gyroscope_bias) * duration
-    force = specific_force - estimate.accelerometer_bias
-    R_mid = R @ exp_rotation(0.5 * turn)
-    acceleration = R_mid @ force
-    acceleration[2] -= gravity
+    R, v, p, p_WF = estimate[:4]
+    half = exp_rotation((0.5 * duration) * (angular_rate - estimate.gyroscope_bias))
+    R_mid = R @ half
+    acceleration = R_mid @ (specific_force - estimate.accelerometer_bias)
+    acceleration[2] -= model.gravity
     # A = [0 0 0 .. -R 0; [g] 0 0 .. -[v]R -R; 0 I 0 .. -[p]R 0; 0 .. -[d]R 0; ..].
-    transition: Vector = np.eye(SIZE)
-    g_x: Vector = np.array([0.0, 0.0, -gravity])
-    transition[Rows.v, Rows.R] = skew(g_x) * duration
-    transition[Rows.p, Rows.R] = skew(g_x) * (0.5 * duration**2)
+    # [v]R, [p]R, [d_1]R, [d_2]R, row below row.
+    moved = (np.concatenate([v, p, p_WF.ravel()]).reshape(4, 3) @ SKEWS).reshape(12, 3)
+    moved = moved @ R
+    transition = _IDENTITY.copy()
+    pull = model.gravity * duration
+    transition[3, 1], transition[4, 0] = pull, -pull
+    transition[6, 1], transition[7, 0] = 0.5 * duration * pull, -0.5 * duration * pull
     transition[6, 3] = transition[7, 4] = transition[8, 5] = duration
     carried = -duration * R
     transition[Rows.R, Rows.b_g] = carried
     transition[Rows.v, Rows.b_a] = carried
-    levers = (
-        (Rows.v, v),
-        (Rows.p, p),
-        (Rows.d[0], estimate.p_WF[0]),
-        (Rows.d[1], estimate.p_WF[1]),
-    )
-    spread: Vector = np.zeros((SIZE, 6))
+    transition[_MOVED, Rows.b_g] = -duration * moved
+    spread = np.zeros((SIZE, 6))
     spread[Rows.R, :3] = R
     spread[Rows.v, 3:] = R
-    for rows, at in levers:
-        moved = skew(at) @ R
-        transition[rows, Rows.b_g] = -duration * moved
-        spread[rows, :3] = moved
-    covariance = transition @ estimate.covariance @ transition.T
-    spread[:, :3] *= params.gyroscope * duration**0.5
-    spread[:, 3:] *= params.accelerometer * duration**0.5
-    covariance += spread @ spread.T
-    covariance[_DIAGONAL] += _wander(params, at_rest) * duration
-    return replace(
-        estimate,
-        R_WB=_orthonormal(R @ exp_rotation(turn)),
-        v_WB=v + acceleration * duration,
-        p_WB=p + v * duration + acceleration * (0.5 * duration**2),
+    spread[_MOVED, :3] = moved
+    spread *= duration**0.5 * model.inertial
+    covariance = transition @ estimate.covariance @ transition.T + spread @ spread.T
+    wander = model.rest_wander if at_rest else model.wander
+    _diagonal(covariance)[:] += duration * wander
+    return estimate._replace(
+        R_WB=_orthonormal(R_mid @ half),
+        v_WB=v + duration * acceleration,
+        p_WB=p + duration * v + (0.5 * duration**2) * acceleration,
         covariance=covariance,
     )
 
@@ -231,41 +264,69 @@ def hold_feet(
     estimate: BaseEstimate,
     feet: tuple[FootPose, FootPose],
     standing: tuple[bool, bool],
-    params: FilterParams,
+    model: FilterModel,
 ) -> BaseEstimate:
     """Corrects the estimate by the feet that stand where they stood (Sec. V-C, V-D).
 
     A foot that begins to stand is taken in where the estimate sees it; one that ends
-    is let go; one whose innovation is beyond `slip_gate` is taken in anew.
+    is let go; one whose innovation is beyond the gate is taken in anew.
 
     Args:
         estimate: carried on to now.
         feet: the soles seen from the base, left and right.
         standing: which of them bear load.
-        params: noise and gate.
+        model: noise and gate.
     """
-    held, slips = [], list(estimate.slips)
+    before = estimate.standing
+    estimate = estimate._replace(standing=standing)
+    held = [i for i in range(2) if standing[i] and before[i]]
+    innovations = [_innovation(estimate, i, feet[i]) for i in held]
     for i in range(2):
-        if not standing[i]:
-            continue
-        if not estimate.standing[i]:
-            estimate = _take_in(estimate, i, feet[i], params)
-            continue
-        z = _innovation(estimate, i, feet[i])
-        S = _difference(estimate.covariance, [i])
-        S[np.diag_indices(6)] += _noise(params)
-        if float(z @ np.linalg.solve(S, z)) > params.slip_gate:
-            slips[i] += 1
-            estimate = _take_in(estimate, i, feet[i], params)
-            continue
-        held.append(i)
-    estimate = replace(estimate, standing=standing, slips=(slips[0], slips[1]))
-    return _correct(estimate, held, feet, params) if held else estimate
+        if standing[i] and not before[i]:
+            estimate = _take_in(estimate, i, feet[i], model)
+    if not held:
+        return estimate
+    HP, S = _innovation_covariance(estimate.covariance, held, model)
+    slipped = [
+        _distance(z, S[6 * k : 6 * k + 6, 6 * k : 6 * k + 6]) > model.slip_gate
+        for k, z in enumerate(innovations)
+    ]
+    if any(slipped):
+        slips = list(estimate.slips)
+        for i, slip in zip(held, slipped, strict=True):
+            if slip:
+                slips[i] += 1
+                estimate = _take_in(estimate, i, feet[i], model)
+        estimate = estimate._replace(slips=(slips[0], slips[1]))
+        kept = [k for k in range(len(held)) if not slipped[k]]
+        if not kept:
+            return estimate
+        held = [held[k] for k in kept]
+        innovations = [innovations[k] for k in kept]
+        HP, S = _innovation_covariance(estimate.covariance, held, model)
+    # K z and K H P by one solution, with P H^T = (H P)^T.
+    known = np.empty((6 * len(held), 1 + SIZE))
+    known[:, 0] = np.concatenate(innovations)
+    known[:, 1:] = HP
+    gained = HP.T @ np.linalg.solve(S, known)
+    return _shifted(estimate, -gained[:, 0], gained[:, 1:])
+
+
+_IDENTITY: Vector = np.eye(SIZE)
+_BASE = np.array([6, 7, 8, 0, 1, 2])
+"""Rows of the base's position and orientation, as an innovation has them."""
+_FEET = np.array([[9, 10, 11, 12, 13, 14], [15, 16, 17, 18, 19, 20]])
+"""Rows of each foot's."""
+_MOVED = np.array([3, 4, 5, 6, 7, 8, 9, 10, 11, 15, 16, 17])
+"""Rows of velocity and positions, which a turn about W's origin moves."""
+_BASES = (_BASE, np.tile(_BASE, 2))
+"""The base's rows beside those of one foot, and of two."""
+_BOTH = _FEET.ravel()
 
 
 def _orthonormal(R: Vector) -> Vector:
     """Takes out what rounding adds to a rotation over many ticks (Newton's step)."""
-    nearer: Vector = R @ (1.5 * np.eye(3) - 0.5 * (R.T @ R))
+    nearer: Vector = 1.5 * R - 0.5 * (R @ (R.T @ R))
     return nearer
 
 
@@ -281,56 +342,29 @@ def _innovation(estimate: BaseEstimate, i: int, foot: FootPose) -> Vector:
     return z
 
 
-def _noise(params: FilterParams) -> Vector:
-    """Variances of an innovation, (6,)."""
-    return np.repeat([params.foot_position**2, params.foot_turn**2], 3)
+def _innovation_covariance(
+    covariance: Vector, held: list[int], model: FilterModel
+) -> tuple[Vector, Vector]:
+    """H P, (6 k, 27), and H P H^T + N, (6 k, 6 k), of k feet."""
+    count = len(held)
+    base, feet = _BASES[count - 1], _BOTH if count == 2 else _FEET[held[0]]
+    HP: Vector = covariance[base] - covariance[feet]
+    S: Vector = HP[:, base] - HP[:, feet]
+    diagonal = _diagonal(S)
+    for k in range(count):
+        diagonal[6 * k : 6 * k + 6] += model.foot
+    return HP, S
 
 
-_DIAGONAL = np.diag_indices(SIZE)
-_BASE = np.array([6, 7, 8, 0, 1, 2])
-"""Rows of the base's position and orientation, as an innovation has them."""
-_FEET = np.array([[9, 10, 11, 12, 13, 14], [15, 16, 17, 18, 19, 20]])
-"""Rows of each foot's."""
+def _diagonal(matrix: Vector) -> Vector:
+    """Gives the diagonal to be written to, (n,), however the matrix lies in memory."""
+    view: Vector = np.einsum("ii->i", matrix)
+    return view
 
 
-def _wander(params: FilterParams, at_rest: bool) -> Vector:
-    """Variances that feet and biases gain in a second, (27,)."""
-    wander = np.zeros(SIZE)
-    creep = params.rest_contact if at_rest else params.contact
-    turn = params.rest_contact_turn if at_rest else params.contact_turn
-    for i in range(2):
-        wander[Rows.d[i]] = creep**2
-        wander[Rows.C[i]] = turn**2
-    wander[Rows.b_g] = params.gyroscope_walk**2
-    wander[Rows.b_a] = params.accelerometer_walk**2
-    return wander
-
-
-def _rows_difference(covariance: Vector, held: list[int]) -> Vector:
-    """H P, (6 k, 27), of k feet: rows of the base less those of the feet."""
-    base = covariance[_BASE]
-    return np.vstack([base - covariance[_FEET[i]] for i in held])
-
-
-def _difference(covariance: Vector, held: list[int]) -> Vector:
-    """H P H^T, (6 k, 6 k), of k feet."""
-    rows = _rows_difference(covariance, held)
-    return np.hstack([rows[:, _BASE] - rows[:, _FEET[i]] for i in held])
-
-
-def _correct(
-    estimate: BaseEstimate,
-    held: list[int],
-    feet: tuple[FootPose, FootPose],
-    params: FilterParams,
-) -> BaseEstimate:
-    z = np.concatenate([_innovation(estimate, i, feet[i]) for i in held])
-    HP = _rows_difference(estimate.covariance, held)
-    S = np.hstack([HP[:, _BASE] - HP[:, _FEET[i]] for i in held])
-    S[np.diag_indices(6 * len(held))] += np.tile(_noise(params), len(held))
-    # K z and K H P by one solution, with P H^T = (H P)^T.
-    solved = np.linalg.solve(S, np.column_stack([z, HP]))
-    return _shifted(estimate, -(HP.T @ solved[:, 0]), HP.T @ solved[:, 1:])
+def _distance(z: Vector, S: Vector) -> float:
+    """Squared Mahalanobis distance."""
+    return float(z @ np.linalg.solve(S, z))
 
 
 def _shifted(estimate: BaseEstimate, delta: Vector, known: Vector) -> BaseEstimate:
@@ -345,17 +379,18 @@ def _shifted(estimate: BaseEstimate, delta: Vector, known: Vector) -> BaseEstima
     G, J = exp_rotation(turn), left_jacobian(turn)
     covariance = estimate.covariance - known
     covariance = 0.5 * (covariance + covariance.T)
-    p_WF = estimate.p_WF @ G.T
-    R_WF = np.empty((2, 3, 3))
+    R_WF = estimate.R_WF.copy()
     for i in range(2):
-        p_WF[i] += J @ delta[Rows.d[i]]
-        R_WF[i] = exp_rotation(delta[Rows.C[i]]) @ estimate.R_WF[i]
-    return replace(
-        estimate,
+        if estimate.standing[i]:
+            R_WF[i] = exp_rotation(delta[Rows.C[i]]) @ R_WF[i]
+    # Velocity, position and both feet, a row each.
+    moved = np.concatenate([estimate.v_WB, estimate.p_WB, estimate.p_WF.ravel()])
+    moved = moved.reshape(4, 3) @ G.T + delta[_MOVED].reshape(4, 3) @ J.T
+    return estimate._replace(
         R_WB=G @ estimate.R_WB,
-        v_WB=G @ estimate.v_WB + J @ delta[Rows.v],
-        p_WB=G @ estimate.p_WB + J @ delta[Rows.p],
-        p_WF=p_WF,
+        v_WB=moved[0],
+        p_WB=moved[1],
+        p_WF=moved[2:],
         R_WF=R_WF,
         gyroscope_bias=estimate.gyroscope_bias + delta[Rows.b_g],
         accelerometer_bias=estimate.accelerometer_bias + delta[Rows.b_a],
@@ -364,7 +399,7 @@ def _shifted(estimate: BaseEstimate, delta: Vector, known: Vector) -> BaseEstima
 
 
 def _take_in(
-    estimate: BaseEstimate, i: int, foot: FootPose, params: FilterParams
+    estimate: BaseEstimate, i: int, foot: FootPose, model: FilterModel
 ) -> BaseEstimate:
     """Lets a foot stand where the estimate sees it: d = p + R p_BF, C = R R_BF."""
     p_WF, R_WF = estimate.p_WF.copy(), estimate.R_WF.copy()
@@ -374,5 +409,5 @@ def _take_in(
     order = np.arange(SIZE)
     order[_FEET[i]] = _BASE
     covariance = estimate.covariance[order][:, order]
-    covariance[_FEET[i], _FEET[i]] += _noise(params)
-    return replace(estimate, p_WF=p_WF, R_WF=R_WF, covariance=covariance)
+    covariance[_FEET[i], _FEET[i]] += model.foot
+    return estimate._replace(p_WF=p_WF, R_WF=R_WF, covariance=covariance)

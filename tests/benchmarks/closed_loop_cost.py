@@ -43,12 +43,16 @@ SLICE = 0.05
 FLUSH = 10
 """Turns between two flushes of the logs."""
 CONTROL = (
-    *("kinematic_state", "foot_wrench_sensor", "motion_player", "zmp_preview"),
+    *("imu", "joint_encoders", "ankle_force_sensors", "contact_detector"),
+    *("base_estimator", "believed_state", "motion_player", "zmp_preview"),
     *("com_reference", "landing_adaptor", "ik_tracker", "feedforward", "stabilizer"),
     *("static_stability", "executive"),
 )
-"""The Systems that make up control, by their names."""
-WATCHING = ("contact_monitor", "speed_monitor", "wanted_torque")
+"""The Systems that make up sensing and control, by their names."""
+WATCHING = (
+    *("kinematic_state", "foot_wrench_sensor", "contact_monitor", "speed_monitor"),
+    "wanted_torque",
+)
 """Those that watch the truth for the judge."""
 RESULT = Path(__file__).with_suffix(".json")
 

@@ -97,6 +97,9 @@ class Robot:
         body_poses = self.task.plant.get_body_poses_output_port()
         poses = body_poses.Eval(self.task.plant.GetMyContextFromRoot(self.context))
         self.body_poses = [RigidTransform(pose) for pose in poses]
+        self.believed_poses = self.task.output(
+            "believed_poses.body_poses", self.context
+        )
         model = scenario.robot.model()
         head = self.task.plant.GetBodyByName(model.head_body, self.task.robot_instance)
         mount = upright_pose(*model.lidar_position)
@@ -256,7 +259,7 @@ def rooms(watch: Stopwatch, count: int) -> None:
         image = DepthImage(
             0.0, camera.X_WC(), camera.focal_length, picture.reshape(shape)
         )
-        robot.fix("depth_cloud", depth_image=image, body_poses=robot.body_poses)
+        robot.fix("depth_cloud", depth_image=image, body_poses=robot.believed_poses)
 
         def perceive() -> Environment:
             seen = robot.port("environment_exchange", "environment")

@@ -153,6 +153,9 @@ def test_a_dead_imu_is_told() -> None:
     frames = task.signals.frames(simulated.context)
     faults = frames["base_estimator.faults"].to_numpy()
     assert faults[-1, 3] == pytest.approx(faults[-1, 0] - 0.32, abs=0.02)
-    error = frames["base_estimator.state"].iloc[-1, 5:8].to_numpy(dtype=float)
-    error -= frames["plant.state"].iloc[-1, 5:8].to_numpy(dtype=float)
+    believed, true = (
+        frames[name].iloc[-1, 5:8].to_numpy(dtype=float)
+        for name in ("base_estimator.state", "plant.state")
+    )
+    error = believed - true
     assert np.abs(error).max() < 5e-3
