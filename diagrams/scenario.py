@@ -287,6 +287,14 @@ class Scenario(Parameters):
                 f"task.mode: {self.task.kind} is only done dynamic, "
                 f"got {self.task.mode!r}"
             )
+        for name in self.sensors.encoders.stuck_joints:
+            if name not in model.limits:
+                close = difflib.get_close_matches(name, sorted(model.limits), n=1)
+                hint = f"; did you mean {close[0]}?" if close else ""
+                raise ValueError(
+                    f"sensors.encoders.stuck_joints: {model.name} has no joint "
+                    f"{name!r}{hint}"
+                )
         links = {
             link.attrib["name"]
             for link in ET.parse(model.urdf).getroot().findall("link")

@@ -376,3 +376,13 @@ def test_a_scene_of_one_s_own_that_is_wrong_is_told(
         load_scenario(file)
     assert str(told.value).startswith(f"{file}: ")
     assert "\n" not in str(told.value)
+
+
+def test_an_encoder_of_no_joint_is_refused() -> None:
+    """In one line that says what it might have meant."""
+    with pytest.raises(
+        ScenarioError,
+        match=r"^stand.yaml with --set sensors.*: sensors.encoders.stuck_joints: jvrc1 "
+        r"has no joint 'R_KNE'; did you mean R_KNEE\?$",
+    ):
+        load_scenario("stand", ["sensors.encoders.stuck_joints=[R_KNE]"])

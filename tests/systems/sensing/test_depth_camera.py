@@ -132,6 +132,19 @@ def test_body_poses_of_the_frame_are_kept() -> None:
     assert camera.GetOutputPort("frame").Eval(context)[0] == 2.0
 
 
+def test_believed_poses_of_the_frame_are_kept_beside_the_true_ones() -> None:
+    """The rays meet the true bodies; what is told is what the robot believes."""
+    camera = DepthCamera(QUIET, scene=triangle_mesh(RoomParams(width=12.0).solids()))
+    simulator = Simulator(camera)
+    context = simulator.get_mutable_context()
+    for name, x in (("body_poses", 1.0), ("believed_poses", 1.1)):
+        poses = AbstractValue.Make([upright_pose(x=x)])
+        camera.GetInputPort(name).FixValue(context, poses)
+    simulator.AdvanceTo(0.01)
+    (pose,) = camera.GetOutputPort("frame_body_poses").Eval(context)
+    assert pose.translation()[0] == 1.1
+
+
 @pytest.mark.parametrize(
     ("field", "value"),
     [
