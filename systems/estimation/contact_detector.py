@@ -34,7 +34,7 @@ class ContactParams(Parameters):
         0.005, "s", least=1e-4, most=0.1, shared="parameters.control_period"
     )
     """Of the controllers, s."""
-    touch_force: float = number(15.0, "N", above=0.0)
+    touch_force: float = number(25.0, "N", above=0.0)
     """Least force along the sole's normal, over what a foot in the air feels, that
     counts as ground, N."""
     touch_sigmas: float = number(5.0, least=0.0)
@@ -47,9 +47,14 @@ class ContactParams(Parameters):
     """Samples in a row that it takes to lose it."""
     noise: float = number(3.0, "N", above=0.0)
     """Noise of the force that is reckoned with before a foot was in the air, N."""
+    largest_noise: float = number(12.0, "N", above=0.0)
+    """Most that is taken for noise, N."""
     tare_time: float = number(0.1, "s", above=0.0)
     """Time constant with which the mean of the force in the air, from offsets and the
-    foot's inertia, and its noise are followed, s."""
+    foot's inertia, is followed, s."""
+    noise_time: float = number(0.3, "s", above=0.0)
+    """The same of its noise, s: of the differences from sample to sample, since what
+    inertia pulls comes and goes slowly."""
     largest_tare: float = number(10.0, "N", least=0.0)
     """Most that is taken for such a mean, N: what is more is ground."""
     bearing_force: float = number(150.0, "N", above=0.0)
@@ -68,6 +73,10 @@ class SoleSize(NamedTuple):
     half_width: float
 
 
+_OUTLIER = 9.0
+"""A sample counts for no more than so many variances."""
+
+
 class FootContact(NamedTuple):
     """What is remembered of one foot."""
 
@@ -79,11 +88,13 @@ class FootContact(NamedTuple):
     """What it felt in the air, N."""
     variance: float
     """How that scattered, N^2."""
+    last: float
+    """The sample before, N."""
 
 
 def standing_contact(params: ContactParams) -> FootContact:
     """Makes the memory of a foot that stands and was never in the air."""
-    return FootContact(True, 0, 0.0, params.noise**2)
+    return FootContact(True, 0, 0.0, params.noise**2, 0.0)
 
 
 def detect_contact(
@@ -96,20 +107,23 @@ def detect_contact(
         force: along the sole's normal, N.
         params: thresholds and time constant.
     """
-    touching, against, mean, variance = contact
+    touching, against, mean, variance, last = contact
     threshold = max(params.touch_force, params.touch_sigmas * math.sqrt(variance))
     excess = force - mean
     if touching:
         against = against + 1 if excess < params.release_share * threshold else 0
         if against >= params.release_count:
             touching, against = False, 0
-        return FootContact(touching, against, mean, variance)
+        return FootContact(touching, against, mean, variance, force)
     if excess > threshold:
-        return FootContact(True, 0, mean, variance)
+        return FootContact(True, 0, mean, variance, force)
     share = min(1.0, params.period / params.tare_time)
     mean = max(-params.largest_tare, min(params.largest_tare, mean + share * excess))
-    variance += share * (excess * excess - variance)
-    return FootContact(False, 0, mean, variance)
+    # Of two samples that scatter alike the difference scatters twice as much.
+    scatter = min(0.5 * (force - last) ** 2, _OUTLIER * variance)
+    variance += min(1.0, params.period / params.noise_time) * (scatter - variance)
+    variance = max(params.noise**2, min(params.largest_noise**2, variance))
+    return FootContact(False, 0, mean, variance, force)
 
 
 def bears(wrench: Vector, sole: SoleSize, params: ContactParams) -> bool:
@@ -186,8 +200,8 @@ class ContactDetector(LeafSystem):
         before = read_state(context, self._memory)
         left, right = eval_vector(self._wrenches, context).reshape(2, 6)[:, 2]
         return (
-            detect_contact(_contact(before[:4]), left, self._params),
-            detect_contact(_contact(before[4:]), right, self._params),
+            detect_contact(_contact(before[:5]), left, self._params),
+            detect_contact(_contact(before[5:]), right, self._params),
         )
 
     def _calc_touching(self, context: Context, output: BasicVector) -> None:
@@ -208,5 +222,5 @@ class ContactDetector(LeafSystem):
 
 
 def _contact(values: Vector) -> FootContact:
-    touching, against, mean, variance = values.tolist()
-    return FootContact(touching > 0.5, int(against), mean, variance)
+    touching, against, mean, variance, last = values.tolist()
+    return FootContact(touching > 0.5, int(against), mean, variance, last)
