@@ -41,7 +41,7 @@ from footfall.systems.balance.landing_adaptor import LandingParams
 from footfall.systems.balance.stabilizer import StabilizerParams
 from footfall.systems.balance.zmp_preview import ZmpPreviewParams
 from footfall.systems.estimation.contact_detector import ContactParams
-from footfall.systems.estimation.invariant_ekf import FilterParams
+from footfall.systems.estimation.filter_params import FilterParams
 from footfall.systems.perception.depth_cloud import DepthCloudParams
 from footfall.systems.perception.obstacles.boxes import ObstacleClustererParams
 from footfall.systems.perception.obstacles.obstacles import ObstacleFinderParams

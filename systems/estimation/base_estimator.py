@@ -18,12 +18,14 @@ from footfall.models.robots.robot import RobotModel
 from footfall.models.values.feet import FEET
 from footfall.models.values.vector import Vector
 from footfall.systems.cached import declare_cached
-from footfall.systems.estimation.invariant_ekf import (
-    BaseEstimate,
+from footfall.systems.estimation.filter_params import (
     FilterParams,
-    FootPose,
     Rows,
     filter_model,
+)
+from footfall.systems.estimation.invariant_ekf import (
+    BaseEstimate,
+    FootPose,
     hold_feet,
     initial_estimate,
     propagate,

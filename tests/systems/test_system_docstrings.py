@@ -39,7 +39,7 @@ from footfall.systems.estimation.contact_detector import (
     ContactParams,
     SoleSize,
 )
-from footfall.systems.estimation.invariant_ekf import FilterParams
+from footfall.systems.estimation.filter_params import FilterParams
 from footfall.systems.perception.depth_cloud import DepthCloud, DepthCloudParams
 from footfall.systems.perception.obstacles.obstacle_clusterer import ObstacleClusterer
 from footfall.systems.perception.obstacles.obstacle_finder import ObstacleFinder

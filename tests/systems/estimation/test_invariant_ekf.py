@@ -6,13 +6,15 @@ from scipy.stats import chi2
 
 from footfall.models.values.vector import Vector
 from footfall.systems.estimation.base_estimator import deviations
-from footfall.systems.estimation.invariant_ekf import (
+from footfall.systems.estimation.filter_params import (
     SIZE,
-    BaseEstimate,
     FilterParams,
-    FootPose,
     Rows,
     filter_model,
+)
+from footfall.systems.estimation.invariant_ekf import (
+    BaseEstimate,
+    FootPose,
     hold_feet,
     initial_estimate,
     propagate,
