@@ -10,6 +10,7 @@ from footfall.diagrams.closed_loop.logged_vector import (
     both_feet,
     state_units,
 )
+from footfall.models.values.feet import FEET
 
 IMU_SIGNAL = "imu.integrals"
 JOINTS_SIGNAL = "joint_encoders.joints"
@@ -21,7 +22,6 @@ TOUCHING_SIGNAL = "contact_detector.touching"
 BELIEVED_COM_SIGNAL = "believed_state.com"
 BELIEVED_VELOCITY_SIGNAL = "believed_state.com_velocity"
 FAULTS_SIGNAL = "base_estimator.faults"
-_SIDES = ("left", "right")
 _ROTATION = ("rx", "ry", "rz")
 _VELOCITY = ("vx", "vy", "vz")
 
@@ -42,8 +42,8 @@ def estimation_signals(model: MultibodyPlant) -> list[LoggedVector]:
         ),
         (JOINTS_SIGNAL, joints, state_units(joints)),
         (ANKLES_SIGNAL, both_feet(WRENCH), WRENCH_UNITS * 2),
-        (TOUCHING_SIGNAL, _SIDES, "1"),
-        (BEARING_SIGNAL, _SIDES, "1"),
+        (TOUCHING_SIGNAL, FEET, "1"),
+        (BEARING_SIGNAL, FEET, "1"),
         (ESTIMATE_SIGNAL, names, state_units(names)),
         (
             DEVIATION_SIGNAL,
@@ -57,7 +57,7 @@ def estimation_signals(model: MultibodyPlant) -> list[LoggedVector]:
         ),
         (
             FAULTS_SIGNAL,
-            (*(f"{side}_slips" for side in _SIDES), "imu_silent"),
+            (*(f"{side}_slips" for side in FEET), "imu_silent"),
             ("1", "1", "s"),
         ),
         (BELIEVED_COM_SIGNAL, XYZ, "m"),

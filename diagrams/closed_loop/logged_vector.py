@@ -3,6 +3,8 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from footfall.models.values.feet import FEET
+
 XYZ = ("x", "y", "z")
 WRENCH = ("fx", "fy", "fz", "mx", "my", "mz")
 WRENCH_UNITS = ("N",) * 3 + ("N m",) * 3
@@ -39,7 +41,7 @@ class LoggedVector(NamedTuple):
 
 def both_feet(names: Sequence[str]) -> tuple[str, ...]:
     """Names the columns of both feet."""
-    return tuple(f"{side}_{name}" for side in ("left", "right") for name in names)
+    return tuple(f"{side}_{name}" for side in FEET for name in names)
 
 
 def state_units(names: Sequence[str]) -> tuple[str, ...]:

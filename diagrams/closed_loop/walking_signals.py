@@ -17,8 +17,8 @@ from footfall.diagrams.closed_loop.loop_builder import (
 from footfall.diagrams.closed_loop.robot_station import RobotStation
 from footfall.diagrams.closed_loop.setup import Setup
 from footfall.diagrams.signal_names import MOVERS_SIGNAL, POLYGON_SIGNAL, STATE_SIGNAL
+from footfall.models.values.feet import FEET
 
-_SIDES = ("left", "right")
 _POSE = (*XYZ, "roll", "pitch", "yaw")
 _POSE_UNITS = ("m",) * 3 + ("rad",) * 3
 
@@ -80,7 +80,7 @@ WALKING = (
     LoggedVector(
         "contact_monitor.other_support", "contact_monitor.other_support", ("fz",), "N"
     ),
-    LoggedVector("contact_monitor.impact", "contact_monitor.impact", _SIDES, "N"),
+    LoggedVector("contact_monitor.impact", "contact_monitor.impact", FEET, "N"),
     LoggedVector(
         "contact_monitor.friction_ratio",
         "contact_monitor.friction_ratio",

@@ -4,6 +4,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
+from pydrake.common.eigen_geometry import Quaternion
 from pydrake.math import RotationMatrix
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.systems.framework import (
@@ -59,6 +60,19 @@ _FIELDS = (
 )
 
 
+def _places() -> tuple[tuple[str, slice, tuple[int, ...]], ...]:
+    """Says where each field lies behind the four flags, and its shape."""
+    places, start = [], 4
+    for name, shape in _FIELDS:
+        end = start + int(np.prod(shape))
+        places.append((name, slice(start, end), shape))
+        start = end
+    return tuple(places)
+
+
+_PLACES = _places()
+
+
 def pack(estimate: BaseEstimate) -> Vector:
     """Lays an estimate out as numbers, the discrete state of the System."""
     flags = [*estimate.standing, *estimate.slips]
@@ -68,11 +82,7 @@ def pack(estimate: BaseEstimate) -> Vector:
 
 def unpack(values: Vector) -> BaseEstimate:
     """Reads what `pack` wrote."""
-    parts, start = {}, 4
-    for name, shape in _FIELDS:
-        end = start + int(np.prod(shape))
-        parts[name] = values[start:end].reshape(shape)
-        start = end
+    parts = {name: values[rows].reshape(shape) for name, rows, shape in _PLACES}
     left, right, slips_left, slips_right = values[:4].tolist()
     return BaseEstimate(
         standing=(left > 0.5, right > 0.5),
@@ -184,7 +194,8 @@ class BaseEstimator(LeafSystem):
         )
         self._joints_count = plant.num_positions() - 7
         self._level = np.concatenate([[1.0], np.zeros(6)])
-        R_WB = _rotation(positions[:4])
+        quaternion = Quaternion(positions[:4] / np.linalg.norm(positions[:4]))
+        R_WB: Vector = RotationMatrix(quaternion).matrix()
         first = initial_estimate(R_WB, positions[4:7], params)
         self._memory = declare_state(self, pack(first))
         self._read = declare_state(self, np.zeros(15))
@@ -233,13 +244,7 @@ class BaseEstimator(LeafSystem):
             self._model,
             at_rest=bool(np.abs(speeds).max() < self._params.rest_speed),
         )
-        left, right = eval_vector(self._bearing, context).tolist()
-        estimate = hold_feet(
-            estimate,
-            self._foot_poses(context),
-            (left > 0.5, right > 0.5),
-            self._model,
-        )
+        estimate = self._hold_feet(context, estimate)
         acceleration = estimate.R_WB @ (force - estimate.accelerometer_bias)
         acceleration[2] -= self._gravity
         rate = rate - estimate.gyroscope_bias
@@ -263,17 +268,16 @@ class BaseEstimator(LeafSystem):
             self._period,
             self._blind,
         )
-        left, right = eval_vector(self._bearing, context).tolist()
-        estimate = hold_feet(
-            estimate,
-            self._foot_poses(context),
-            (left > 0.5, right > 0.5),
-            self._model,
-        )
+        estimate = self._hold_feet(context, estimate)
         rate = log_rotation(before.T @ estimate.R_WB) / self._period
         return _Now(
             estimate, integrals, rate, np.zeros(3), silent, was_silent + self._period
         )
+
+    def _hold_feet(self, context: Context, estimate: BaseEstimate) -> BaseEstimate:
+        left, right = eval_vector(self._bearing, context).tolist()
+        bearing = (left > 0.5, right > 0.5)
+        return hold_feet(estimate, self._foot_poses(context), bearing, self._model)
 
     def _foot_poses(self, context: Context) -> tuple[FootPose, FootPose]:
         scratch = self._scratch(context)
@@ -336,14 +340,3 @@ class BaseEstimator(LeafSystem):
 def _foot_pose(X_BA: object, p_AF: Vector) -> FootPose:
     R_BA: Vector = X_BA.rotation().matrix()  # type: ignore[attr-defined]
     return FootPose(X_BA.translation() + R_BA @ p_AF, R_BA)  # type: ignore[attr-defined]
-
-
-def _rotation(quaternion: Vector) -> Vector:
-    w, x, y, z = (quaternion / np.linalg.norm(quaternion)).tolist()
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )

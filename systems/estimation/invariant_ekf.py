@@ -180,10 +180,7 @@ def hold_feet(
     if not held:
         return estimate
     HP, S = _innovation_covariance(estimate.covariance, held, model)
-    slipped = [
-        _distance(z, S[6 * k : 6 * k + 6, 6 * k : 6 * k + 6]) > model.slip_gate
-        for k, z in enumerate(innovations)
-    ]
+    slipped = [far > model.slip_gate for far in _distances(innovations, S)]
     if any(slipped):
         slips = list(estimate.slips)
         for i, slip in zip(held, slipped, strict=True):
@@ -255,9 +252,13 @@ def _diagonal(matrix: Vector) -> Vector:
     return view
 
 
-def _distance(z: Vector, S: Vector) -> float:
-    """Squared Mahalanobis distance."""
-    return float(z @ np.linalg.solve(S, z))
+def _distances(innovations: list[Vector], S: Vector) -> list[float]:
+    """Squared Mahalanobis distance of each foot's innovation by itself."""
+    z = np.stack(innovations)
+    own = np.stack([S[6 * k : 6 * k + 6, 6 * k : 6 * k + 6] for k in range(len(z))])
+    solved = np.linalg.solve(own, z[:, :, None])[:, :, 0]
+    distances: list[float] = np.einsum("ki,ki->k", z, solved).tolist()
+    return distances
 
 
 def _shifted(estimate: BaseEstimate, delta: Vector, known: Vector) -> BaseEstimate:

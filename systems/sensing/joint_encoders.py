@@ -70,14 +70,17 @@ class JointEncoders(LeafSystem):
             width: nq + nv of the robot.
 
         Raises:
-            ValueError: a parameter is wrong.
+            ValueError: a parameter is wrong, or a joint has other than one freedom.
         """
         super().__init__()
         params.validate()
         self._params, self._period = params, period
         count = len(joints)
-        velocities = (width - 2 * count - 13) // 2
-        assert velocities == 0, "a floating base and joints of one freedom"
+        if width != 13 + 2 * count:
+            raise ValueError(
+                f"width: must be {13 + 2 * count} for a floating base and {count} "
+                f"joints of one freedom, got {width}"
+            )
         self._columns = slice(7, 7 + count)
         self._count = count
         self._keep = math.exp(-2.0 * math.pi * params.bandwidth * period)
