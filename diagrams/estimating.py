@@ -12,6 +12,7 @@ from pydrake.systems.framework import DiagramBuilder
 from footfall.diagrams.closed_loop.estimation import build_estimation
 from footfall.diagrams.closed_loop.estimation_signals import (
     ANKLES_SIGNAL,
+    FOOTHOLDS_SIGNAL,
     IMU_SIGNAL,
     JOINTS_SIGNAL,
     estimation_signals,
@@ -31,6 +32,7 @@ SENSORS = {
     "imu": IMU_SIGNAL,
     "joints": JOINTS_SIGNAL,
     "ankle_wrenches": ANKLES_SIGNAL,
+    "footholds": FOOTHOLDS_SIGNAL,
 }
 """By input of the station `estimation` the signal that a run logs of it."""
 

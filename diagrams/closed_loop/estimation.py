@@ -12,10 +12,10 @@ from footfall.systems.sensing.kinematic_state import KinematicState
 def build_estimation(setup: Setup) -> Station:
     """Builds contact detection, base estimator and the kinematics that follow.
 
-    Takes `imu`, `joints` and `ankle_wrenches`, or in their place `true_state` and
-    `true_wrenches`; gives `foot_poses`, `com`, `com_velocity`, `touching` and
-    `body_poses`. Parts: `contact_detector`, `base_estimator` unless the true state is
-    used, `believed_state`, `believed_poses`.
+    Takes `imu`, `joints`, `ankle_wrenches` and `footholds`, or in their place
+    `true_state` and `true_wrenches`; gives `foot_poses`, `com`, `com_velocity`,
+    `touching` and `body_poses`. Parts: `contact_detector`, `base_estimator` unless the
+    true state is used, `believed_state`, `believed_poses`.
     """
     params, robot, model = setup.params, setup.robot, setup.model
     sole = SoleSize(robot.sole.heel, robot.sole.toe, robot.sole.half_width)
@@ -37,6 +37,7 @@ def build_estimation(setup: Setup) -> Station:
         )
         station.connect("contact_detector.bearing", "base_estimator.bearing")
         station.connect("base_estimator.state", *readers)
+        station.take("footholds", "base_estimator.footholds")
         station.take("imu", "base_estimator.imu")
         station.take("joints", "base_estimator.joints")
         station.take("ankle_wrenches", "contact_detector.foot_wrenches")

@@ -18,6 +18,7 @@ ANKLES_SIGNAL = "ankle_force_sensors.foot_wrenches"
 ESTIMATE_SIGNAL = "base_estimator.state"
 DEVIATION_SIGNAL = "base_estimator.deviation"
 BEARING_SIGNAL = "contact_detector.bearing"
+FOOTHOLDS_SIGNAL = "motion_player.footholds"
 TOUCHING_SIGNAL = "contact_detector.touching"
 BELIEVED_COM_SIGNAL = "believed_state.com"
 BELIEVED_VELOCITY_SIGNAL = "believed_state.com_velocity"
@@ -42,6 +43,11 @@ def estimation_signals(model: MultibodyPlant) -> list[LoggedVector]:
         ),
         (JOINTS_SIGNAL, joints, state_units(joints)),
         (ANKLES_SIGNAL, both_feet(WRENCH), WRENCH_UNITS * 2),
+        (
+            FOOTHOLDS_SIGNAL,
+            both_feet(("nx", "ny", "nz", "distance")),
+            ("1", "1", "1", "m") * 2,
+        ),
         (TOUCHING_SIGNAL, FEET, "1"),
         (BEARING_SIGNAL, FEET, "1"),
         (ESTIMATE_SIGNAL, names, state_units(names)),

@@ -24,10 +24,10 @@ def build_walking_control(setup: Setup) -> Station:
     """Builds the controllers that carry out motion plans.
 
     Takes `motion_plan`, and of the robot `foot_poses`, `com`, `com_velocity` and
-    `touching`; gives `torque`, `joint_references`, and what is tracked now,
-    `foot_references` and `com_reference`. Parts: `motion_player`, `zmp_preview`,
-    `com_reference`, `landing_adaptor`, `ik_tracker`, `feedforward`, `stabilizer`,
-    `static_stability`.
+    `touching`; gives `torque`, `joint_references`, what is tracked now,
+    `foot_references` and `com_reference`, and `footholds`, where the feet are to stand.
+    Parts: `motion_player`, `zmp_preview`, `com_reference`, `landing_adaptor`,
+    `ik_tracker`, `feedforward`, `stabilizer`, `static_stability`.
     """
     station = StationBuilder("walking_control", setup.parts)
     for name, make in _makers(setup).items():
@@ -41,6 +41,7 @@ def build_walking_control(setup: Setup) -> Station:
     )
     station.take("com", "stabilizer.com", "static_stability.com")
     station.take("com_velocity", "stabilizer.com_velocity")
+    station.give("footholds", "motion_player.footholds")
     station.give("torque", "feedforward.torque")
     station.give("joint_references", "ik_tracker.joint_references")
     station.give("foot_references", "landing_adaptor.foot_references")

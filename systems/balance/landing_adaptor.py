@@ -29,6 +29,9 @@ class LandingParams(Parameters):
     """Of the controllers, s."""
     blind_time: float = number(0.3, "s", least=0.0)
     """After lift-off no touch counts for this long, s: the foot still leaves."""
+    landing_speed: float = number(0.03, "m/s", least=0.0)
+    """Speed at which a foot that missed the ground begins to go on down, m/s: about
+    that at which it was to meet it."""
     search_speed: float = number(0.10, "m/s", above=0.0)
     """Speed at which a foot that missed the ground goes on down, m/s."""
     search_acceleration: float = number(0.5, "m/s^2", above=0.0)
@@ -38,12 +41,17 @@ class LandingParams(Parameters):
     """How far it does so, m; then it is taken for landed, as deep ground is a plan's
     business."""
     release_time: float = number(0.08, "s", above=0.0)
-    """Time constant with which a lifted foot forgets where it stood, s."""
-    settle_time: float = number(0.1, "s", above=0.0)
+    """Time constant with which a lifted foot forgets where it stood, s; twice over, so
+    that it sets off at rest: if it set off at 0.1 m/s it would tip the other foot."""
+    settle_time: float = number(0.05, "s", above=0.0)
     """Time constant with which the reference of a foot that has landed goes from where
-    it was to where the foot is, s: a step would tear the foot off the ground again."""
+    it was to where the foot is, s, twice over: a step would tear the foot off the
+    ground again."""
     swing_gain: float = number(15.0, "1/s", least=0.0)
     """Rate at which a foot in the air is brought to its plan, 1/s."""
+    swing_delay: float = number(0.003, "s", least=0.0, most=0.1)
+    """How late a foot in the air follows its reference, s: what it is behind by that is
+    no sag, and would be made up for when the foot is to stop, on the ground."""
     swing_limit: float = number(0.04, "m", least=0.0)
     """Most that its reference is shifted for that, m and rad."""
 
@@ -54,12 +62,16 @@ class FootState:
 
     offset: Vector
     """Reference minus plan, as (x, y, z, roll, pitch, yaw), (6,), m and rad."""
+    offset_rate: Vector
+    """Of a lifted foot whose offset goes, (6,), m/s and rad/s."""
     sag: Vector
     """What is added in the air so that the foot follows the plan, (6,)."""
     held: Vector
     """The reference at which a foot that landed early is held, (6,)."""
     slack: Vector
     """How far the reference still is from where the foot met the ground, (6,)."""
+    slack_rate: Vector
+    """(6,), m/s and rad/s."""
     landed: bool
     """Whether it stands on ground that it has felt."""
     lifted_for: float
@@ -91,43 +103,70 @@ def adapt(
     Returns:
         The state after this tick, the pose to track and its rate, (6,) each.
     """
+    h = params.period
     offset, sag, held, landed = state.offset, state.sag, state.held, state.landed
-    slack = state.slack * (1.0 - min(1.0, params.period / params.settle_time))
+    slack, slack_rate = _vanishing(state.slack, state.slack_rate, params.settle_time, h)
+    offset_rate: Vector = np.zeros(6)
     lifted_for = searching = 0.0
     if not contact:
-        lifted_for = state.lifted_for + params.period
+        lifted_for = state.lifted_for + h
         if state.lifted_for == 0.0:
             landed = False
         if not landed:
             # What is left of it goes with the rest of where the foot stood.
-            offset, slack = offset + slack, np.zeros(6)
-            offset = offset * (1.0 - min(1.0, params.period / params.release_time))
-            sag = state.sag + params.swing_gain * params.period * (planned - measured)
+            offset, offset_rate = _vanishing(
+                offset + slack, state.offset_rate + slack_rate, params.release_time, h
+            )
+            slack, slack_rate = np.zeros(6), np.zeros(6)
+            due = planned + offset - params.swing_delay * (rate + offset_rate)
+            sag = state.sag + params.swing_gain * h * (due - measured)
             sag = np.clip(sag, -params.swing_limit, params.swing_limit)
             if felt and lifted_for > params.blind_time and rate[2] < 0.0:
                 landed = True
                 held = _level(measured)
                 slack = planned + offset + sag - held
         if landed:
-            offset = held - planned
+            offset, offset_rate = held - planned, np.zeros(6)
             rate = np.zeros(6)
             sag = np.zeros(6)
-    elif not landed:
+    # What is given out now is tracked from the next tick on.
+    ahead = planned + h * rate
+    if contact and not landed:
         landed = felt or offset[2] < -params.search_depth
         if landed:
             slack = offset + sag - (_level(measured) - planned)
             offset, sag = _level(measured) - planned, np.zeros(6)
         else:
-            faster = state.searching + params.search_acceleration * params.period
+            slow = state.searching or params.landing_speed
+            faster = slow + params.search_acceleration * h
             searching = min(params.search_speed, faster)
             offset = offset.copy()
-            offset[2] -= searching * params.period
+            offset[2] -= searching * h
             rate = rate.copy()
             rate[2] -= searching
-    if slack.any():
-        rate = rate - slack / params.settle_time
-    after = FootState(offset, sag, held, slack, landed, lifted_for, searching)
-    return after, planned + offset + sag + slack, rate
+    after = FootState(
+        offset, offset_rate, sag, held, slack, slack_rate, landed, lifted_for, searching
+    )
+    pose = ahead + offset + sag + slack
+    return after, pose, rate + offset_rate + slack_rate
+
+
+def _vanishing(
+    value: Vector, rate: Vector, time: float, period: float
+) -> tuple[Vector, Vector]:
+    """Value and rate a tick later of what goes to zero, critically damped, (6,) each.
+
+    Args:
+        value: now.
+        rate: now.
+        time: constant, s; both of the same.
+        period: of a tick, s.
+    """
+    # x'' = -2 x' / T - x / T^2: x(t) = (x + (x' + x / T) t) exp(-t / T).
+    decay = np.exp(-period / time)
+    slope = rate + value / time
+    later = (value + slope * period) * decay
+    return later, slope * decay - later / time
 
 
 def _level(pose: Vector) -> Vector:
@@ -140,33 +179,49 @@ def _level(pose: Vector) -> Vector:
 def standing() -> FootState:
     """Makes the state of a foot that stands where its plan says."""
     nothing: Vector = np.zeros(6)
-    return FootState(nothing, nothing, nothing, nothing, True, 0.0, 0.0)
+    return FootState(
+        offset=nothing,
+        offset_rate=nothing,
+        sag=nothing,
+        held=nothing,
+        slack=nothing,
+        slack_rate=nothing,
+        landed=True,
+        lifted_for=0.0,
+        searching=0.0,
+    )
 
 
-_SIZE = 27
+_SIZE = 39
 
 
 def _pack(state: FootState) -> Vector:
     return np.concatenate(
         [
             state.offset,
+            state.offset_rate,
             state.sag,
             state.held,
             state.slack,
+            state.slack_rate,
             [float(state.landed), state.lifted_for, state.searching],
         ]
     )
 
 
 def _unpack(values: Vector) -> FootState:
+    offset, offset_rate, sag, held, slack, slack_rate = values[:36].reshape(6, 6)
+    landed, lifted_for, searching = values[36:].tolist()
     return FootState(
-        values[:6],
-        values[6:12],
-        values[12:18],
-        values[18:24],
-        values[24] > 0.5,
-        values[25],
-        values[26],
+        offset=offset,
+        offset_rate=offset_rate,
+        sag=sag,
+        held=held,
+        slack=slack,
+        slack_rate=slack_rate,
+        landed=landed > 0.5,
+        lifted_for=lifted_for,
+        searching=searching,
     )
 
 
@@ -197,9 +252,8 @@ class LandingAdaptor(LeafSystem):
     - `foot_references` (output): like the input, adapted; of the last tick.
     - `contacts` (output): like the input, but a foot counts when it has landed.
 
-    The discrete state is, a foot, (offset (6), sag (6), held pose (6), slack (6),
-    landed, time since lift-off, speed of the search), then the plan's start; and both
-    outputs.
+    The discrete state is, a foot, the fields of `FootState` in their order (39), then
+    the plan's start; and both outputs.
     """
 
     def __init__(self, params: LandingParams, foot_poses: Vector) -> None:

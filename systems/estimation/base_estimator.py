@@ -20,6 +20,7 @@ from footfall.models.values.feet import FEET
 from footfall.models.values.vector import Vector
 from footfall.systems.cached import declare_cached
 from footfall.systems.estimation.filter_params import (
+    FilterModel,
     FilterParams,
     Rows,
     filter_model,
@@ -31,6 +32,7 @@ from footfall.systems.estimation.invariant_ekf import (
     initial_estimate,
     propagate,
 )
+from footfall.systems.estimation.known_ground import stand_on
 from footfall.systems.estimation.rotations import exp_rotation, log_rotation, skew
 from footfall.systems.plant_cache import declare_scratch_context
 from footfall.systems.ports import (
@@ -48,6 +50,8 @@ BLIND_TURN = 1.0
 """How fast a base turns of which no IMU tells, rad/s per root Hz."""
 BLIND_ACCELERATION = 3.0
 """How it is pulled, m/s^2 per root Hz."""
+LAID = -1.0
+"""Stands for the time of a foot whose ground has been taken into account."""
 _FIELDS = (
     ("R_WB", (3, 3)),
     ("v_WB", (3,)),
@@ -118,6 +122,8 @@ class _Now(NamedTuple):
     """Mean since the estimate before, in B, without bias, (3,), rad/s."""
     acceleration: Vector
     """Mean since the estimate before, of the base in W, (3,), m/s^2."""
+    borne: Vector
+    """For how long each foot has borne load, s, or `LAID`, (2,)."""
     silent: float = 0.0
     """For how long the IMU has said nothing, s."""
     was_silent: float = 0.0
@@ -137,6 +143,7 @@ class BaseEstimator(LeafSystem):
         - imu
         - joints
         - bearing
+        - footholds
         output_ports:
         - state
         - deviation
@@ -148,6 +155,9 @@ class BaseEstimator(LeafSystem):
     - `joints`: measured positions, then velocities of the joints in the order of the
       state, (2 n,), rad, rad/s.
     - `bearing`: left and right foot bears load and does not move, 0 or 1, (2,).
+    - `footholds`: planes known on which the left and the right sole are to lie, normal
+      n in W and distance n . x of its points, (8,), -, -, -, m; zeros where none is
+      known.
     - `state`: estimated positions and velocities of the robot, `lead` after the latest
       sample, (nq + nv,).
     - `deviation`: standard deviations about W's axes of the base's orientation, rad,
@@ -187,7 +197,8 @@ class BaseEstimator(LeafSystem):
         self._feet = [plant.GetBodyByName(robot.foot_bodies[foot]) for foot in FEET]
         self._p_AF: Vector = np.array([0.0, 0.0, -robot.sole.ankle_height])
         self._gravity = float(np.linalg.norm(plant.gravity_field().gravity_vector()))
-        self._model = filter_model(params, self._gravity)
+        self._moving = filter_model(params, self._gravity)
+        self._resting = filter_model(params, self._gravity, at_rest=True)
         self._blind = filter_model(
             replace(params, gyroscope=BLIND_TURN, accelerometer=BLIND_ACCELERATION),
             self._gravity,
@@ -198,15 +209,17 @@ class BaseEstimator(LeafSystem):
         R_WB: Vector = RotationMatrix(quaternion).matrix()
         first = initial_estimate(R_WB, positions[4:7], params)
         self._memory = declare_state(self, pack(first))
-        self._read = declare_state(self, np.zeros(15))
+        self._read = declare_state(self, np.zeros(17))
         self._imu = self.DeclareVectorInputPort("imu", 7)
         self._joints = self.DeclareVectorInputPort("joints", 2 * self._joints_count)
         self._bearing = self.DeclareVectorInputPort("bearing", 2)
+        self._footholds = self.DeclareVectorInputPort("footholds", 8)
         self._scratch = declare_scratch_context(self, plant)
         inputs = {
             self._imu.ticket(),
             self._joints.ticket(),
             self._bearing.ticket(),
+            self._footholds.ticket(),
             self.discrete_state_ticket(DiscreteStateIndex(self._memory)),
             self.discrete_state_ticket(DiscreteStateIndex(self._read)),
         }
@@ -227,34 +240,39 @@ class BaseEstimator(LeafSystem):
         estimate = unpack(read_state(context, self._memory))
         integrals = eval_vector(self._imu, context)
         duration = integrals[0] - read[0]
-        silent, was_silent = read[13:].tolist()
+        silent, was_silent = read[13:15].tolist()
+        borne = read[15:]
         if duration <= 0.0:
             if silent < SILENCE:
                 return _Now(
-                    estimate, integrals, read[7:10], read[10:13], silent, was_silent
+                    estimate,
+                    integrals,
+                    read[7:10],
+                    read[10:13],
+                    borne,
+                    silent,
+                    was_silent,
                 )
-            return self._without_imu(context, estimate, integrals, silent, was_silent)
+            return self._without_imu(
+                context, estimate, integrals, borne, silent, was_silent
+            )
         rate, force = ((integrals[1:] - read[1:7]) / duration).reshape(2, 3)
         speeds = eval_vector(self._joints, context)[self._joints_count :]
-        estimate = propagate(
-            estimate,
-            rate,
-            force,
-            duration,
-            self._model,
-            at_rest=bool(np.abs(speeds).max() < self._params.rest_speed),
-        )
-        estimate = self._hold_feet(context, estimate)
+        still = np.abs(speeds).max() < self._params.rest_speed
+        model = self._resting if still else self._moving
+        estimate = propagate(estimate, rate, force, duration, model)
+        estimate, borne = self._hold_feet(context, estimate, borne, model)
         acceleration = estimate.R_WB @ (force - estimate.accelerometer_bias)
         acceleration[2] -= self._gravity
         rate = rate - estimate.gyroscope_bias
-        return _Now(estimate, integrals, rate, acceleration, 0.0, was_silent)
+        return _Now(estimate, integrals, rate, acceleration, borne, 0.0, was_silent)
 
     def _without_imu(
         self,
         context: Context,
         estimate: BaseEstimate,
         integrals: Vector,
+        borne: Vector,
         silent: float,
         was_silent: float,
     ) -> _Now:
@@ -268,16 +286,48 @@ class BaseEstimator(LeafSystem):
             self._period,
             self._blind,
         )
-        estimate = self._hold_feet(context, estimate)
+        estimate, borne = self._hold_feet(context, estimate, borne, self._blind)
         rate = log_rotation(before.T @ estimate.R_WB) / self._period
-        return _Now(
-            estimate, integrals, rate, np.zeros(3), silent, was_silent + self._period
-        )
+        was_silent += self._period
+        return _Now(estimate, integrals, rate, np.zeros(3), borne, silent, was_silent)
 
-    def _hold_feet(self, context: Context, estimate: BaseEstimate) -> BaseEstimate:
+    def _hold_feet(
+        self,
+        context: Context,
+        estimate: BaseEstimate,
+        borne: Vector,
+        model: FilterModel,
+    ) -> tuple[BaseEstimate, Vector]:
+        """Corrects by the feet that bear, and by the ground of those that came to rest.
+
+        Args:
+            context: of this System.
+            estimate: carried on to now.
+            borne: for how long each foot has borne load, or `LAID`, (2,).
+            model: noise of the feet.
+        """
+        params, slips = self._params, estimate.slips
         left, right = eval_vector(self._bearing, context).tolist()
         bearing = (left > 0.5, right > 0.5)
-        return hold_feet(estimate, self._foot_poses(context), bearing, self._model)
+        estimate = hold_feet(estimate, self._foot_poses(context), bearing, model)
+        borne = borne.copy()
+        for i in range(2):
+            if not bearing[i] or estimate.slips[i] != slips[i]:
+                borne[i] = 0.0
+            elif borne[i] != LAID:
+                borne[i] += self._period
+                plane = eval_vector(self._footholds, context)[4 * i : 4 * i + 4]
+                if borne[i] >= params.foothold_time and plane.any():
+                    estimate = stand_on(
+                        estimate,
+                        i,
+                        plane[:3],
+                        float(plane[3]),
+                        params.foothold,
+                        params.foothold_gate,
+                    )
+                    borne[i] = LAID
+        return estimate, borne
 
     def _foot_poses(self, context: Context) -> tuple[FootPose, FootPose]:
         scratch = self._scratch(context)
@@ -331,6 +381,7 @@ class BaseEstimator(LeafSystem):
                 now.angular_rate,
                 now.acceleration,
                 [silent, now.was_silent],
+                now.borne,
             ]
         )
         set_state(discrete, self._memory, pack(now.estimate))

@@ -62,9 +62,19 @@ class FilterParams(Parameters):
     """Of a sole seen from the base by the encoders, m."""
     foot_turn: float = number(2e-3, "rad", above=0.0)
     """The same of its orientation, rad."""
+    rest_foot_turn: float = number(3e-4, "rad", above=0.0)
+    """The same while all joints are at rest and no leg bends, rad: it tells the
+    gyroscope's bias in a second."""
     slip_gate: float = number(50.0, above=0.0)
     """Squared Mahalanobis distance of a foot's innovation (6 numbers) beyond which it
     is not where it stood: it slipped or rolled, and stands anew where it is."""
+    foothold: float = number(2e-3, "m", above=0.0)
+    """Of a sole from the ground that it lies on, as its place is known, m."""
+    foothold_time: float = number(0.1, "s", least=0.0)
+    """So long a sole has borne load until it lies, s."""
+    foothold_gate: float = number(9.0, above=0.0)
+    """Squared distance from that ground, in deviations, beyond which a sole stands on
+    something else."""
     lead: float = number(0.0025, "s", least=0.0, most=0.1)
     """How far the state is told ahead of the latest sample, s, base and joints going on
     as they go: by default the latency of the sensors."""
@@ -82,9 +92,7 @@ class FilterModel(NamedTuple):
     inertial: Vector
     """Deviations of gyroscope and accelerometer, per root Hz, (6,)."""
     wander: Vector
-    """Variances that feet and biases gain in a second while the robot moves, (27,)."""
-    rest_wander: Vector
-    """The same while it does not, (27,)."""
+    """Variances that feet and biases gain in a second, (27,)."""
     foot: Vector
     """Variances of a sole seen from the base, position then turn, (6,)."""
     slip_gate: float
@@ -92,29 +100,30 @@ class FilterModel(NamedTuple):
     """m/s^2."""
 
 
-def filter_model(params: FilterParams, gravity: float = GRAVITY) -> FilterModel:
+def filter_model(
+    params: FilterParams, gravity: float = GRAVITY, at_rest: bool = False
+) -> FilterModel:
     """Lays the parameters out for the filter.
 
     Args:
         params: of the filter.
         gravity: m/s^2.
+        at_rest: of a robot of which no joint moves.
     """
-    walks = np.zeros(SIZE)
-    walks[Rows.b_g] = params.gyroscope_walk**2
-    walks[Rows.b_a] = params.accelerometer_walk**2
-    wander, rest_wander = walks.copy(), walks
-    for rows, creep, turn in (
-        (wander, params.contact, params.contact_turn),
-        (rest_wander, params.rest_contact, params.rest_contact_turn),
-    ):
-        for i in range(2):
-            rows[Rows.d[i]] = creep**2
-            rows[Rows.C[i]] = turn**2
+    creep, turn, foot_turn = params.contact, params.contact_turn, params.foot_turn
+    if at_rest:
+        creep, turn = params.rest_contact, params.rest_contact_turn
+        foot_turn = params.rest_foot_turn
+    wander = np.zeros(SIZE)
+    wander[Rows.b_g] = params.gyroscope_walk**2
+    wander[Rows.b_a] = params.accelerometer_walk**2
+    for i in range(2):
+        wander[Rows.d[i]] = creep**2
+        wander[Rows.C[i]] = turn**2
     return FilterModel(
         np.repeat([params.gyroscope, params.accelerometer], 3),
         wander,
-        rest_wander,
-        np.repeat([params.foot_position**2, params.foot_turn**2], 3),
+        np.repeat([params.foot_position**2, foot_turn**2], 3),
         params.slip_gate,
         gravity,
     )

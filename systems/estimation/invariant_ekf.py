@@ -107,7 +107,6 @@ def propagate(
     specific_force: Vector,
     duration: float,
     model: FilterModel,
-    at_rest: bool = False,
 ) -> BaseEstimate:
     """Carries the estimate on by what the IMU felt (Sec. V-B, VI-B).
 
@@ -117,7 +116,6 @@ def propagate(
         specific_force: mean of the accelerometer, in B, (3,), m/s^2.
         duration: for how long, s.
         model: noise and gravity.
-        at_rest: whether no joint moves.
     """
     R, v, p, p_WF = estimate[:4]
     half = exp_rotation((0.5 * duration) * (angular_rate - estimate.gyroscope_bias))
@@ -143,8 +141,7 @@ def propagate(
     spread[_MOVED, :3] = moved
     spread *= duration**0.5 * model.inertial
     covariance = transition @ estimate.covariance @ transition.T + spread @ spread.T
-    wander = model.rest_wander if at_rest else model.wander
-    _diagonal(covariance)[:] += duration * wander
+    _diagonal(covariance)[:] += duration * model.wander
     return estimate._replace(
         R_WB=_orthonormal(R_mid @ half),
         v_WB=v + duration * acceleration,
@@ -199,7 +196,7 @@ def hold_feet(
     known[:, 0] = np.concatenate(innovations)
     known[:, 1:] = HP
     gained = HP.T @ np.linalg.solve(S, known)
-    return _shifted(estimate, -gained[:, 0], gained[:, 1:])
+    return shifted(estimate, -gained[:, 0], gained[:, 1:])
 
 
 _IDENTITY: Vector = np.eye(SIZE)
@@ -261,7 +258,7 @@ def _distances(innovations: list[Vector], S: Vector) -> list[float]:
     return distances
 
 
-def _shifted(estimate: BaseEstimate, delta: Vector, known: Vector) -> BaseEstimate:
+def shifted(estimate: BaseEstimate, delta: Vector, known: Vector) -> BaseEstimate:
     """Moves the estimate by an error, X+ = exp(delta) X, and lessens the covariance.
 
     Args:

@@ -32,6 +32,9 @@ class PathExecutiveParams(Parameters):
 
     period: float = number(0.025, "s", least=1e-3, most=10.0)
     """Between decisions, s."""
+    first_rest: float = number(1.5, "s", least=0.0)
+    """Standing still at the start, s: a robot that stands learns its gyroscope's bias,
+    which it cannot tell from a turn as it walks."""
     settle_time: float = number(0.4, "s", least=0.0)
     """Standing still before a look on which a path is planned, s."""
     look_period: float = number(0.5, "s", least=1e-3)
@@ -136,7 +139,8 @@ def decide(
     if before.coming is not None:
         return before.at(time)
     if before.activity == "look":
-        if time - before.since < params.settle_time or frames == 0:
+        stood = time - before.since >= params.settle_time
+        if not stood or time < params.first_rest or frames == 0:
             return before
         return _look_and_plan(before, time, sources, params, thinking)
     if before.activity == "move" and time - before.looked >= params.look_period:

@@ -5,6 +5,7 @@ from functools import partial
 
 import numpy as np
 from pydrake.common.value import AbstractValue
+from pydrake.math import RollPitchYaw
 from pydrake.systems.framework import BasicVector, Context, LeafSystem
 
 from footfall.models.values.planned import MotionPlan
@@ -27,6 +28,20 @@ def foot_references(plan: MotionPlan, row: int) -> Vector:
     poses = plan.foot_poses[row]
     following = plan.foot_poses[min(row + 1, len(plan.zmp) - 1)]
     return np.concatenate([poses, (following - poses) / plan.period]).ravel()
+
+
+def footholds(plan: MotionPlan, row: int) -> Vector:
+    """Planes on which the feet are to stand flat and still, (8,); see MotionPlayer."""
+    planes = np.zeros((2, 4))
+    following = plan.foot_poses[min(row + 1, len(plan.zmp) - 1)]
+    whole = plan.contact_lengths.max()
+    for i in range(2):
+        pose = plan.foot_poses[row, i]
+        flat = plan.contact_lengths[row, i] == whole
+        if plan.contacts[row, i] and flat and (pose == following[i]).all():
+            normal = RollPitchYaw(pose[3:]).ToRotationMatrix().matrix()[:, 2]
+            planes[i] = *normal, normal @ pose[:3]
+    return planes.ravel()
 
 
 def zmp_preview(plan: MotionPlan, row: int, horizon: int) -> Vector:
@@ -65,6 +80,7 @@ class MotionPlayer(LeafSystem):
         output_ports:
         - foot_references
         - contacts
+        - footholds
         - com_height
         - zmp
         - zmp_preview
@@ -78,6 +94,9 @@ class MotionPlayer(LeafSystem):
       the right foot, then the rates of both, (24,), m, rad, m/s, rad/s.
     - `contacts`: whether the left and the right foot are to be on the ground, 0 or 1,
       then the length of each sole that carries, (4,), -, -, m, m.
+    - `footholds`: planes on which the left and the right sole are to lie still, normal
+      n in W and distance n . x of its points, (8,), -, -, -, m; zeros of a foot that
+      moves, is in the air or on its toes.
     - `com_height`: z of p_WCom, its rate and its acceleration, (3,), m, m/s, m/s^2.
     - `zmp`: p_WZmp of the planned motion, (3,), m.
     - `zmp_preview`: ZMP of the cart from now to `horizon` ticks ahead, first all x,
@@ -119,6 +138,7 @@ class MotionPlayer(LeafSystem):
         samplers: tuple[tuple[str, int, Callable[[MotionPlan, int], Vector]], ...] = (
             ("foot_references", 24, foot_references),
             ("contacts", 4, contacts),
+            ("footholds", 8, footholds),
             ("com_height", 3, com_height),
             ("zmp", 3, lambda plan, row: plan.zmp[row]),
             (

@@ -3,12 +3,15 @@
 The toe edge is what is steered, since a foot that is put down flat after its heel was
 lifted would else push its toes forward into the riser. Height and way of the toe edge
 and pitch follow quintic blends at rest at both ends (so twice continuously
-differentiable). When each blend begins and ends is searched on a small grid: the
-gentlest timing whose sole keeps off every edge.
+differentiable), but that in the end the foot goes down evenly and feels for the ground.
+When each blend begins and ends is searched on a small grid: the gentlest timing whose
+sole keeps off every edge.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import product
+from typing import TypeAlias
 
 import numpy as np
 from pydrake.math import RigidTransform, RollPitchYaw
@@ -35,6 +38,10 @@ GRID: Vector = np.array(
     ]
 )
 """Every timing, (lifted, lowering, departure, arrival), (n, 4)."""
+LONGEST_LANDING = 0.2
+"""Most of the duration for which the foot goes down evenly in the end."""
+FEELING = 1.5
+"""Its way until it stands since it began to, in that of going evenly."""
 SAMPLES: Vector = np.linspace(0.0, 1.0, 61)
 """Where a timing is checked, as a part of the duration."""
 
@@ -52,6 +59,11 @@ class SwingParams(Parameters):
     touch_down_height: float = number(0.015, "m", least=0.0)
     """From this height above the foothold, m, the foot comes straight down, so that a
     ground up to that much too high is met without a knock forward."""
+    landing_speed: float = number(0.033, "m/s", least=0.0, most=1.0)
+    """At which the foot goes down evenly in the end, m/s: slowly enough to meet the
+    ground a little early or late without a knock."""
+    landing_time: float = number(0.08, "s", above=0.0)
+    """For how long it does, s."""
     swing_pitch: float = number(0.0, "rad", above=-RIGHT_ANGLE, below=RIGHT_ANGLE)
     """Pitch of the foot at the top of the swing, rad; negative lifts the toes."""
     retraction: float = number(0.0, "m", least=0.0)
@@ -64,10 +76,13 @@ class SwingParams(Parameters):
             ValueError: "field: reason, got x" for the first field that is wrong.
         """
         super().validate()
-        if not self.apex_clearance >= max(self.edge_clearance, self.touch_down_height):
+        landing = FEELING * self.landing_speed * self.landing_time
+        lower = max(self.edge_clearance, self.touch_down_height, landing)
+        if not self.apex_clearance >= lower:
             raise ValueError(
-                "apex_clearance: must not be less than edge_clearance and "
-                f"touch_down_height, got {self.apex_clearance:g} m"
+                "apex_clearance: must not be less than edge_clearance, "
+                "touch_down_height and the way of landing_speed in landing_time, "
+                f"got {self.apex_clearance:g} m"
             )
 
 
@@ -102,6 +117,8 @@ class _Swing:
     """Height of the toe edge at the top, m."""
     pitch: float
     """At the top, rad."""
+    landing: float
+    """What is left of the height when the foot begins to feel for the ground, m."""
     retraction: float
     """m."""
     edges: Vector
@@ -157,6 +174,7 @@ def swing_trajectory(
     ahead = heading(X_WEnd)
     x_W: Vector = np.array([np.cos(ahead), np.sin(ahead), 0.0])
     lowest = max(sole_corners(X, sole)[:, 2].min() for X in (X_WStart, X_WEnd))
+    landing_time = min(params.landing_time, LONGEST_LANDING * duration)
     sink = max(0.0, -sole.length * np.sin(params.swing_pitch))
     swing = _Swing(
         start_z=p0[2],
@@ -168,14 +186,16 @@ def swing_trajectory(
         end_pitch=rpy1[1],
         apex=max(lowest, *edges[:, 2], p0[2], p1[2]) + params.apex_clearance + sink,
         pitch=params.swing_pitch,
+        landing=FEELING * params.landing_speed * landing_time,
         retraction=params.retraction if len(edges) else 0.0,
         edges=np.column_stack([(edges - p0) @ x_W, edges[:, 2]]),
         sole=sole,
     )
-    timing, short = _gentlest(swing, params)
+    touch_down = 1.0 - landing_time / duration
+    timing, short = _gentlest(swing, params, touch_down)
     n = max(1, round(duration / period))
     u = np.linspace(0.0, 1.0, n + 1)
-    shares = _shares(timing[None, :], u)
+    shares = _shares(timing[None, :], u, touch_down)
     progress, back, z, pitch = (rows[0] for rows in _blends(swing, shares))
     roll = rpy0[0] + progress * wrap(rpy1[0] - rpy0[0])
     yaw = rpy0[2] + progress * wrap(rpy1[2] - rpy0[2])
@@ -195,30 +215,52 @@ def swing_trajectory(
     return SwingTrajectory(positions, rpy, clearance, status)
 
 
-def _shares(timings: Vector, u: Vector) -> tuple[Vector, Vector, Vector, Vector]:
-    """How far up, down, ahead and drawn back the foot is, 0 to 1: (k, n) of k timings.
+_Shares: TypeAlias = tuple[Vector, Vector, Vector, Vector, Vector]
+
+
+def _feeling(u: Vector, touch_down: float) -> Vector:
+    """How far the foot has gone of the last of its way: 0, then evenly on, to 1.
+
+    Its speed grows as a quintic over as long as it then lasts, half a way ahead.
+
+    Args:
+        u: time as a part of the duration, (n,).
+        touch_down: from when on it goes evenly.
+    """
+    span = 1.0 - touch_down
+    w = np.clip((u - touch_down + span) / span, 0.0, 1.0)
+    begun = w**4 * (2.5 - 3.0 * w + w**2)
+    even = np.clip((u - touch_down) / span, 0.0, 1.0)
+    share: Vector = (begun + even) / FEELING
+    return share
+
+
+def _shares(timings: Vector, u: Vector, touch_down: float) -> _Shares:
+    """How far up, down, ahead, drawn back and feeling for the ground the foot is.
+
+    0 to 1, (k, n) of k timings.
 
     They do not depend on the swing.
     """
     lifted, lowering, departure, arrival = timings.T[:, :, None]
     up = quintic(u / lifted)
-    down = quintic((u - lowering) / (1.0 - lowering))
+    down = quintic((u - lowering) / (touch_down - lowering))
     progress = quintic((u - departure) / (arrival - departure))
     back = quintic(u / 0.2) * (1.0 - quintic((u - 0.2) / 0.3)) + 0.0 * up
-    return up, down, progress, back
+    return up, down, progress, back, _feeling(u, touch_down) + 0.0 * up
 
 
-GRID_SHARES = _shares(GRID, SAMPLES)
-"""Of every timing that is tried: the same for every step of a walk."""
+@lru_cache(maxsize=8)
+def _grid_shares(touch_down: float) -> _Shares:
+    """Of every timing that is tried: the same for every step of a walk."""
+    return _shares(GRID, SAMPLES, touch_down)
 
 
-def _blends(
-    swing: _Swing, shares: tuple[Vector, Vector, Vector, Vector]
-) -> tuple[Vector, Vector, Vector, Vector]:
+def _blends(swing: _Swing, shares: _Shares) -> tuple[Vector, Vector, Vector, Vector]:
     """Progress, retraction, m, toe height, m, pitch, rad: (k, n) of k timings."""
-    up, down, progress, back = shares
+    up, down, progress, back, feeling = shares
     z = swing.start_z + up * (swing.apex - swing.start_z)
-    z = z + down * (swing.end_z - swing.apex)
+    z = z + down * (swing.end_z + swing.landing - swing.apex) - feeling * swing.landing
     pitch = swing.start_pitch + up * (swing.pitch - swing.start_pitch)
     pitch = pitch + down * (swing.end_pitch - swing.pitch)
     return progress, swing.retraction * back, z, pitch
@@ -246,14 +288,18 @@ def _gaps(
     return np.stack([edge_x - toe_x, heel_x - edge_x, height], axis=-1)
 
 
-def _gentlest(swing: _Swing, params: SwingParams) -> tuple[Vector, float]:
-    """The timing of least peak acceleration among those that keep the distances.
+def _gentlest(
+    swing: _Swing, params: SwingParams, touch_down: float
+) -> tuple[Vector, float]:
+    """The timing of least accelerations among those that keep the distances.
+
+    What counts is the norm of the peaks on the way up, down and ahead.
 
     Returns:
         Its row of the grid, and by how much it falls short of the distances, m: above
         0 only where none keeps them, and then the least.
     """
-    progress, back, z, pitch = _blends(swing, GRID_SHARES)
+    progress, back, z, pitch = _blends(swing, _grid_shares(touch_down))
     short = np.zeros(len(GRID))
     falling = GRID[:, 1:2] <= SAMPLES
     low = falling & (z - swing.end_z < params.touch_down_height)
@@ -279,13 +325,12 @@ def _gentlest(swing: _Swing, params: SwingParams) -> tuple[Vector, float]:
         missing = (wanted - gaps).min(axis=-1)
         short = np.maximum(short, missing.max(axis=(1, 2)))
     lifted, lowering, departure, arrival = GRID.T
-    effort = np.maximum.reduce(
-        [
-            (swing.apex - swing.start_z) / lifted**2,
-            (swing.apex - swing.end_z) / (1.0 - lowering) ** 2,
-            swing.way / (arrival - departure) ** 2,
-        ]
-    )
+    peaks = [
+        (swing.apex - swing.start_z) / lifted**2,
+        (swing.apex - swing.end_z) / (touch_down - lowering) ** 2,
+        swing.way / (arrival - departure) ** 2,
+    ]
+    effort = np.linalg.norm(peaks, axis=0)
     kept = short <= 1e-6
     best = np.where(kept, effort, np.inf).argmin() if kept.any() else short.argmin()
     return GRID[best], float(short[best])

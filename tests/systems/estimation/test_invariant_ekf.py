@@ -26,6 +26,7 @@ H = 0.005
 BOTH = (True, True)
 PARAMS = FilterParams()
 MODEL = filter_model(PARAMS, G)
+REST = filter_model(PARAMS, G, at_rest=True)
 FEET_W = np.array([[0.0, 0.09, 0.0], [0.0, -0.09, 0.0]])
 UPRIGHT = np.eye(3)
 PELVIS = np.array([0.01, 0.0, 0.8])
@@ -72,7 +73,7 @@ def test_standing_robot_learns_the_gyroscope_bias() -> None:
     estimate = begin()
     for _ in range(2000):
         force = np.array([0.0, 0.0, G])
-        estimate = propagate(estimate, bias, force, H, MODEL, at_rest=True)
+        estimate = propagate(estimate, bias, force, H, REST)
         estimate = hold_feet(estimate, seen(UPRIGHT, PELVIS), BOTH, MODEL)
     np.testing.assert_allclose(estimate.gyroscope_bias, bias, atol=1e-4)
     np.testing.assert_allclose(estimate.p_WB, PELVIS, atol=1e-3)

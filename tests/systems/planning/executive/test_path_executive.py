@@ -30,7 +30,9 @@ from footfall.systems.planning.executive.path_executive import (
 from footfall.systems.thinking import ThinkingParams
 
 SOLE = Sole(heel=0.10, toe=0.15, half_width=0.05, ankle_height=0.1)
-PARAMS = PathExecutiveParams(settle_time=0.4, look_period=0.5, body_radius=0.2)
+PARAMS = PathExecutiveParams(
+    first_rest=0.0, settle_time=0.4, look_period=0.5, body_radius=0.2
+)
 AT_ONCE = ThinkingParams(room_perception=0.0, room_planning=0.0, stopping=0.0)
 SLOW = ThinkingParams(room_perception=0.2, room_planning=0.51, stopping=0.1)
 PLANNED = FootstepPlan(status="planned")
@@ -119,6 +121,22 @@ def test_looks_after_it_has_stood_still_and_has_a_frame() -> None:
     start = PathDecision(STAND, since=5.0)
     assert decided(start, 5.39) is start
     assert decided(start, 6.0, frames=0) is start
+
+
+def test_it_stands_at_the_start_to_know_its_gyroscope() -> None:
+    """Then alone: a rest later on is as short as the settling."""
+    start = PathDecision(STAND)
+    patient = replace(PARAMS, first_rest=2.0)
+    assert decided(start, 1.99, params=patient) is start
+    going = decided(
+        start,
+        2.0,
+        environment=Environment(),
+        footsteps=PLANNED,
+        plan=WALK,
+        params=patient,
+    )
+    assert going.activity == "move"
 
 
 def test_plans_from_what_it_sees_and_goes() -> None:

@@ -5,11 +5,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from pydrake.common.value import AbstractValue
+from pydrake.math import RollPitchYaw
 from pydrake.systems.framework import Context
 
 from footfall.models.values.planned import MotionPlan
 from footfall.models.values.vector import Vector
-from footfall.systems.planning.motion.motion_player import MotionPlayer, plan_row
+from footfall.systems.planning.motion.motion_player import (
+    MotionPlayer,
+    footholds,
+    plan_row,
+)
 from footfall.systems.ports import eval_vector
 
 ROWS = 5
@@ -146,3 +151,29 @@ def test_a_horizon_of_nothing_is_refused() -> None:
     """With what it got."""
     with pytest.raises(ValueError, match="horizon must be at least 1 tick, got 0"):
         MotionPlayer(0)
+
+
+def test_footholds_are_planes_of_soles_that_lie() -> None:
+    """Normal and distance; nothing of a foot that moves, is up, or on its toes."""
+    poses = np.zeros((4, 2, 6))
+    poses[:, 0] = [0.3, 0.1, 0.2, 0.0, 0.1, 0.5]
+    poses[:, 1] = [0.5, -0.1, 0.4, 0.0, 0.0, 0.0]
+    poses[2, 1, 4] = 0.3
+    contacts, lengths = np.ones((4, 2)), np.full((4, 2), 0.225)
+    contacts[0, 1] = 0.0
+    lengths[3, 1] = 0.01
+    plan = replace(
+        numbered(0.0),
+        foot_poses=poses[[0, 1, 2, 3, 3]],
+        contacts=contacts[[0, 1, 2, 3, 3]],
+        contact_lengths=lengths[[0, 1, 2, 3, 3]],
+    )
+    rotation = RollPitchYaw(0.0, 0.1, 0.5).ToRotationMatrix()
+    normal = rotation.matrix()[:, 2]
+    for row in range(4):
+        left, right = footholds(plan, row).reshape(2, 4)
+        np.testing.assert_allclose(left[:3], normal)
+        assert left[3] == pytest.approx(normal @ [0.3, 0.1, 0.2])
+        assert not right.any()
+    still = replace(plan, contacts=np.ones((5, 2)), contact_lengths=np.ones((5, 2)))
+    assert footholds(still, 4)[4:].tolist() == [0.0, 0.0, 1.0, 0.4]
