@@ -40,6 +40,7 @@ from footfall.models.values.validation import (
 from footfall.systems.balance.landing_adaptor import LandingParams
 from footfall.systems.balance.stabilizer import StabilizerParams
 from footfall.systems.balance.zmp_preview import ZmpPreviewParams
+from footfall.systems.estimation.com_observer import ComObserverParams
 from footfall.systems.estimation.contact_detector import ContactParams
 from footfall.systems.estimation.filter_params import FilterParams
 from footfall.systems.perception.depth_cloud import DepthCloudParams
@@ -97,6 +98,11 @@ class RobotParams(Parameters):
     state: str = choice(ESTIMATED, STATES)
     """What controllers and planners know of the robot: "estimated", by its own sensors,
     or "true", what the simulation knows, without noise and delay, to compare with."""
+    com_error_ahead: float = number(0.0, "m", least=-0.1, most=0.1)
+    """How far ahead of where it is the robot's model has its CoM, m: to see what a
+    wrong model does."""
+    com_error_left: float = number(0.0, "m", least=-0.1, most=0.1)
+    """How far to the left of it, m."""
 
     def model(self) -> RobotModel:
         """Gives the robot's names, sole, postures and gains."""
@@ -170,6 +176,8 @@ class ControllerParams(Parameters):
     """When a foot counts as on the ground, and when it bears."""
     base_estimator: FilterParams = field(default_factory=FilterParams)
     """How far the filter of base and feet trusts the sensors."""
+    com_observer: ComObserverParams = field(default_factory=ComObserverParams)
+    """How fast the forces under the feet correct the model's CoM."""
     landing: LandingParams = field(default_factory=LandingParams)
     """How a foot lands."""
     stabilizer: StabilizerParams = field(default_factory=StabilizerParams)

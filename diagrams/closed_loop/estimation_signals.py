@@ -20,7 +20,7 @@ DEVIATION_SIGNAL = "base_estimator.deviation"
 BEARING_SIGNAL = "contact_detector.bearing"
 FOOTHOLDS_SIGNAL = "motion_player.footholds"
 TOUCHING_SIGNAL = "contact_detector.touching"
-BELIEVED_COM_SIGNAL = "believed_state.com"
+BELIEVED_COM_SIGNAL = "com_observer.com"
 BELIEVED_VELOCITY_SIGNAL = "believed_state.com_velocity"
 FAULTS_SIGNAL = "base_estimator.faults"
 _ROTATION = ("rx", "ry", "rz")
@@ -67,6 +67,7 @@ def estimation_signals(model: MultibodyPlant) -> list[LoggedVector]:
             ("1", "1", "s"),
         ),
         (BELIEVED_COM_SIGNAL, XYZ, "m"),
+        ("com_observer.offset", ("ahead", "left"), "m"),
         (BELIEVED_VELOCITY_SIGNAL, _VELOCITY, "m/s"),
     )
     return [LoggedVector(name, name, columns, units) for name, columns, units in rows]

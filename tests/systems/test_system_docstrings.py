@@ -34,6 +34,7 @@ from footfall.systems.balance.zmp_preview_controller import ZmpPreviewController
 from footfall.systems.disturbance.box_mover import BoxMover
 from footfall.systems.disturbance.pusher import Pusher
 from footfall.systems.estimation.base_estimator import BaseEstimator
+from footfall.systems.estimation.com_observer import ComObserver, ComObserverParams
 from footfall.systems.estimation.contact_detector import (
     ContactDetector,
     ContactParams,
@@ -139,6 +140,7 @@ FACTORIES: dict[type[LeafSystem], Callable[[], LeafSystem]] = {
     ),
     BodyPoses: lambda: BodyPoses(_plant()),
     BoxMover: lambda: BoxMover([]),
+    ComObserver: lambda: ComObserver(ComObserverParams()),
     ComReference: ComReference,
     ContactDetector: lambda: ContactDetector(
         ContactParams(), SoleSize(0.075, 0.15, 0.042)

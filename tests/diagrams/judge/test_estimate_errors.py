@@ -62,7 +62,7 @@ def frames() -> dict[str, pd.DataFrame]:
         "base_estimator.state": frame(off),
         "base_estimator.deviation": frame(np.full((COUNT, 9), 0.1)),
         "base_estimator.faults": frame(faults),
-        "believed_state.com": frame(com + np.array([0.003, 0.004, 0.0])),
+        "com_observer.com": frame(com + np.array([0.003, 0.004, 0.0])),
         "believed_state.com_velocity": frame(np.zeros((COUNT, 3))),
         "contact_detector.touching": frame(touching),
         "contact_monitor.foot_forces": frame(forces),

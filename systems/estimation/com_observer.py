@@ -1,0 +1,193 @@
+"""Where the CoM truly is: the forces under the feet correct the model's masses.
+
+A model's CoM is off by millimetres as built and by centimetres with a payload; a DCM
+that is off by as much makes every step land elsewhere. The ground's wrench tells where
+the CoM is, but for what turns the body about it, which is nothing while it stands.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from pydrake.math import RollPitchYaw
+from pydrake.systems.framework import (
+    BasicVector,
+    Context,
+    DiscreteStateIndex,
+    DiscreteValues,
+    LeafSystem,
+)
+
+from footfall.models.values.validation import Parameters, number
+from footfall.models.values.vector import Vector
+from footfall.systems.ports import (
+    declare_state,
+    eval_vector,
+    read_state,
+    set_state,
+    set_vector,
+)
+from footfall.systems.timing import timed
+
+
+@dataclass(kw_only=True)
+class ComObserverParams(Parameters):
+    """How fast the CoM of the model is corrected."""
+
+    period: float = number(
+        0.005, "s", least=1e-4, most=0.1, shared="parameters.control_period"
+    )
+    """Of the controllers, s."""
+    rest_time: float = number(1.0, "s", above=0.0)
+    """Time constant while the robot stands, s; shorter at the start, where the mean of
+    all that was felt counts."""
+    moving_time: float = number(30.0, "s", above=0.0)
+    """The same while it moves, s: its turning about the CoM passes for an offset, and
+    is as much to one side as to the other only over many steps."""
+    rest_speed: float = number(0.03, "m/s", least=0.0)
+    """Speed of the CoM below which it stands, m/s."""
+    largest: float = number(0.05, "m", least=0.0)
+    """Most that is corrected along either axis, m."""
+
+
+def com_of_wrenches(
+    height: float, foot_poses: Vector, foot_wrenches: Vector
+) -> Vector | None:
+    """Where the CoM is by what the ground does to the feet, horizontally, (2,), m.
+
+    The body does not turn about its CoM c: sum (p_i - c) x f_i + m_i = 0, whatever it
+    is accelerated by.
+
+    Args:
+        height: of the CoM, m.
+        foot_poses: sole frames X_WF, left then right, (12,).
+        foot_wrenches: of the ground, each force then moment about F, in F, (12,).
+
+    Returns:
+        None where the feet bear next to nothing.
+    """
+    force, moment = np.zeros(3), np.zeros(3)
+    for pose, wrench in zip(
+        foot_poses.reshape(2, 6), foot_wrenches.reshape(2, 6), strict=True
+    ):
+        R_WF = RollPitchYaw(*pose[3:]).ToRotationMatrix().matrix()
+        f = R_WF @ wrench[:3]
+        force += f
+        moment += R_WF @ wrench[3:] + np.cross(pose[:3], f)
+    if force[2] < LEAST_FORCE:
+        return None
+    across = np.array([-moment[1], moment[0]]) + height * force[:2]
+    found: Vector = across / force[2]
+    return found
+
+
+LEAST_FORCE = 100.0
+"""Less than this the feet do not bear the body, N."""
+
+
+class ComObserver(LeafSystem):
+    """Corrects the CoM of the model, horizontally, by the forces under the feet.
+
+    .. pydrake_system::
+
+        name: ComObserver
+        input_ports:
+        - com
+        - com_velocity
+        - foot_poses
+        - foot_wrenches
+        output_ports:
+        - com
+        - offset
+
+    - `com` (input): p_WCom as the model has it, (3,), m.
+    - `com_velocity`: v_WCom, (3,), m/s.
+    - `foot_poses`: sole frames X_WF (x, y, z, roll, pitch, yaw), left then right,
+      (12,), m and rad.
+    - `foot_wrenches`: measured, of the ground on the left and the right foot, each
+      force then moment about F, in F, (12,), N and Nm.
+    - `com` (output): p_WCom with the correction of the last tick, (3,), m.
+    - `offset`: that correction, ahead and to the left midway between the headings of
+      the feet, (2,), m.
+
+    The discrete state is the offset and for how long it has been learnt, s.
+    """
+
+    def __init__(
+        self, params: ComObserverParams, model_error: tuple[float, float] = (0.0, 0.0)
+    ) -> None:
+        """Declares the ports.
+
+        Args:
+            params: see there.
+            model_error: what is added to the model's CoM, ahead and to the left, m: a
+                model that is wrong, to see what comes of it.
+
+        Raises:
+            ValueError: a parameter is out of range.
+        """
+        super().__init__()
+        params.validate()
+        self._params = params
+        self._error: Vector = np.array(model_error, dtype=np.float64)
+        self._memory = declare_state(self, np.zeros(3))
+        self._com = self.DeclareVectorInputPort("com", 3)
+        self._velocity = self.DeclareVectorInputPort("com_velocity", 3)
+        self._poses = self.DeclareVectorInputPort("foot_poses", 12)
+        self._wrenches = self.DeclareVectorInputPort("foot_wrenches", 12)
+        memory = self.discrete_state_ticket(DiscreteStateIndex(self._memory))
+        self.DeclareVectorOutputPort(
+            "com",
+            3,
+            timed(self, self._calc_com),
+            prerequisites_of_calc={
+                self._com.ticket(),
+                self._poses.ticket(),
+                memory,
+            },
+        )
+        self.DeclareVectorOutputPort(
+            "offset", 2, timed(self, self._calc_offset), prerequisites_of_calc={memory}
+        )
+        self.DeclarePeriodicDiscreteUpdateEvent(
+            params.period, 0.0, timed(self, self._update)
+        )
+
+    def _modelled(self, context: Context) -> tuple[Vector, Vector]:
+        """The model's CoM with its error, (3,), and the heading's rotation, (2, 2)."""
+        poses = eval_vector(self._poses, context)
+        yaw = poses[5] + 0.5 * np.angle(np.exp(1j * (poses[11] - poses[5])))
+        c, s = np.cos(yaw), np.sin(yaw)
+        turn: Vector = np.array([[c, -s], [s, c]])
+        com = eval_vector(self._com, context).copy()
+        com[:2] += turn @ self._error
+        return com, turn
+
+    def _calc_com(self, context: Context, output: BasicVector) -> None:
+        com, turn = self._modelled(context)
+        com[:2] += turn @ read_state(context, self._memory)[:2]
+        set_vector(output, com)
+
+    def _calc_offset(self, context: Context, output: BasicVector) -> None:
+        set_vector(output, read_state(context, self._memory)[:2])
+
+    def _update(self, context: Context, discrete: DiscreteValues) -> None:
+        params = self._params
+        memory = read_state(context, self._memory)
+        com, turn = self._modelled(context)
+        felt = com_of_wrenches(
+            com[2],
+            eval_vector(self._poses, context),
+            eval_vector(self._wrenches, context),
+        )
+        if felt is None:
+            return
+        speed = np.hypot(*eval_vector(self._velocity, context)[:2])
+        stands = speed < params.rest_speed
+        learnt = memory[2] + params.period if stands else memory[2]
+        time = params.moving_time
+        if stands:
+            time = min(learnt, params.rest_time)
+        off = turn.T @ (felt - com[:2])
+        offset = memory[:2] + (off - memory[:2]) * params.period / time
+        offset = np.clip(offset, -params.largest, params.largest)
+        set_state(discrete, self._memory, np.array([*offset, learnt]))
