@@ -29,9 +29,6 @@ class LandingParams(Parameters):
     """Of the controllers, s."""
     blind_time: float = number(0.3, "s", least=0.0)
     """After lift-off no touch counts for this long, s: the foot still leaves."""
-    landing_speed: float = number(0.03, "m/s", least=0.0)
-    """Speed at which a foot that missed the ground begins to go on down, m/s: about
-    that at which it was to meet it."""
     search_speed: float = number(0.10, "m/s", above=0.0)
     """Speed at which a foot that missed the ground goes on down, m/s."""
     search_acceleration: float = number(0.5, "m/s^2", above=0.0)
@@ -77,7 +74,8 @@ class FootState:
     lifted_for: float
     """Time since the plan lifted it, s; 0 while it is to stand."""
     searching: float
-    """Speed at which it looks for the ground below its plan, m/s."""
+    """Speed at which it goes down in the air, or looks for the ground below its plan,
+    m/s: it goes on as it came."""
 
 
 def adapt(
@@ -118,11 +116,12 @@ def adapt(
                 offset + slack, state.offset_rate + slack_rate, params.release_time, h
             )
             slack, slack_rate = np.zeros(6), np.zeros(6)
+            searching = max(0.0, -float(rate[2]))
             due = planned + offset - params.swing_delay * (rate + offset_rate)
             sag = state.sag + params.swing_gain * h * (due - measured)
             sag = np.clip(sag, -params.swing_limit, params.swing_limit)
             if felt and lifted_for > params.blind_time and rate[2] < 0.0:
-                landed = True
+                landed, searching = True, 0.0
                 held = _level(measured)
                 slack = planned + offset + sag - held
         if landed:
@@ -137,8 +136,7 @@ def adapt(
             slack = offset + sag - (_level(measured) - planned)
             offset, sag = _level(measured) - planned, np.zeros(6)
         else:
-            slow = state.searching or params.landing_speed
-            faster = slow + params.search_acceleration * h
+            faster = state.searching + params.search_acceleration * h
             searching = min(params.search_speed, faster)
             offset = offset.copy()
             offset[2] -= searching * h

@@ -1,8 +1,8 @@
 """Where the CoM truly is: the forces under the feet correct the model's masses.
 
 A model's CoM is off by millimetres as built and by centimetres with a payload; a DCM
-that is off by as much makes every step land elsewhere. The ground's wrench tells where
-the CoM is, but for what turns the body about it, which is nothing while it stands.
+that is off by as much makes every step land elsewhere. Of a robot that stands still the
+CoM is over the ZMP, which the force sensors tell within a millimetre.
 """
 
 from dataclasses import dataclass
@@ -26,6 +26,7 @@ from footfall.systems.ports import (
     set_state,
     set_vector,
 )
+from footfall.systems.sensing.measured_zmp import zmp_now
 from footfall.systems.timing import timed
 
 
@@ -37,47 +38,17 @@ class ComObserverParams(Parameters):
         0.005, "s", least=1e-4, most=0.1, shared="parameters.control_period"
     )
     """Of the controllers, s."""
-    rest_time: float = number(1.0, "s", above=0.0)
-    """Time constant while the robot stands, s; shorter at the start, where the mean of
-    all that was felt counts."""
-    moving_time: float = number(30.0, "s", above=0.0)
-    """The same while it moves, s: its turning about the CoM passes for an offset, and
-    is as much to one side as to the other only over many steps."""
-    rest_speed: float = number(0.03, "m/s", least=0.0)
+    time: float = number(1.0, "s", above=0.0)
+    """Time constant while the robot stands, s; shorter at the start."""
+    trust: float = number(0.3, "s", least=0.0)
+    """How much the model counts at the start, as so long a time of standing, s: the
+    robot sways while it takes up its load."""
+    rest_speed: float = number(0.01, "m/s", least=0.0)
     """Speed of the CoM below which it stands, m/s."""
+    rest_time: float = number(0.5, "s", least=0.0)
+    """For how long it is to stand before anything is learnt, s."""
     largest: float = number(0.05, "m", least=0.0)
     """Most that is corrected along either axis, m."""
-
-
-def com_of_wrenches(
-    height: float, foot_poses: Vector, foot_wrenches: Vector
-) -> Vector | None:
-    """Where the CoM is by what the ground does to the feet, horizontally, (2,), m.
-
-    The body does not turn about its CoM c: sum (p_i - c) x f_i + m_i = 0, whatever it
-    is accelerated by.
-
-    Args:
-        height: of the CoM, m.
-        foot_poses: sole frames X_WF, left then right, (12,).
-        foot_wrenches: of the ground, each force then moment about F, in F, (12,).
-
-    Returns:
-        None where the feet bear next to nothing.
-    """
-    force, moment = np.zeros(3), np.zeros(3)
-    for pose, wrench in zip(
-        foot_poses.reshape(2, 6), foot_wrenches.reshape(2, 6), strict=True
-    ):
-        R_WF = RollPitchYaw(*pose[3:]).ToRotationMatrix().matrix()
-        f = R_WF @ wrench[:3]
-        force += f
-        moment += R_WF @ wrench[3:] + np.cross(pose[:3], f)
-    if force[2] < LEAST_FORCE:
-        return None
-    across = np.array([-moment[1], moment[0]]) + height * force[:2]
-    found: Vector = across / force[2]
-    return found
 
 
 LEAST_FORCE = 100.0
@@ -109,7 +80,8 @@ class ComObserver(LeafSystem):
     - `offset`: that correction, ahead and to the left midway between the headings of
       the feet, (2,), m.
 
-    The discrete state is the offset and for how long it has been learnt, s.
+    The discrete state is the offset, for how long it has been learnt and for how long
+    the robot has stood, s.
     """
 
     def __init__(
@@ -129,7 +101,7 @@ class ComObserver(LeafSystem):
         params.validate()
         self._params = params
         self._error: Vector = np.array(model_error, dtype=np.float64)
-        self._memory = declare_state(self, np.zeros(3))
+        self._memory = declare_state(self, np.zeros(4))
         self._com = self.DeclareVectorInputPort("com", 3)
         self._velocity = self.DeclareVectorInputPort("com_velocity", 3)
         self._poses = self.DeclareVectorInputPort("foot_poses", 12)
@@ -174,20 +146,26 @@ class ComObserver(LeafSystem):
         params = self._params
         memory = read_state(context, self._memory)
         com, turn = self._modelled(context)
-        felt = com_of_wrenches(
-            com[2],
-            eval_vector(self._poses, context),
-            eval_vector(self._wrenches, context),
-        )
-        if felt is None:
-            return
-        speed = np.hypot(*eval_vector(self._velocity, context)[:2])
-        stands = speed < params.rest_speed
-        learnt = memory[2] + params.period if stands else memory[2]
-        time = params.moving_time
-        if stands:
-            time = min(learnt, params.rest_time)
-        off = turn.T @ (felt - com[:2])
-        offset = memory[:2] + (off - memory[:2]) * params.period / time
-        offset = np.clip(offset, -params.largest, params.largest)
-        set_state(discrete, self._memory, np.array([*offset, learnt]))
+        stood = 0.0
+        if np.hypot(*eval_vector(self._velocity, context)[:2]) < params.rest_speed:
+            stood = memory[3] + params.period
+        offset, learnt = memory[:2], memory[2]
+        if stood > params.rest_time:
+            zmp = self._zmp(context)
+            if np.isfinite(zmp[0]):
+                learnt += params.period
+                share = params.period / min(params.trust + learnt, params.time)
+                off = turn.T @ (zmp[:2] - com[:2])
+                offset = offset + share * (off - offset)
+                offset = np.clip(offset, -params.largest, params.largest)
+        set_state(discrete, self._memory, np.array([*offset, learnt, stood]))
+
+    def _zmp(self, context: Context) -> Vector:
+        """Measured, (3,), m; nan where the feet do not bear."""
+        poses = eval_vector(self._poses, context).reshape(2, 6)
+        frames = [
+            (RollPitchYaw(*pose[3:]).ToRotationMatrix().matrix(), pose[:3])
+            for pose in poses
+        ]
+        wrenches = eval_vector(self._wrenches, context).reshape(2, 6)
+        return zmp_now(frames, wrenches, LEAST_FORCE)

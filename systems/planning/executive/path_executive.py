@@ -33,8 +33,8 @@ class PathExecutiveParams(Parameters):
     period: float = number(0.025, "s", least=1e-3, most=10.0)
     """Between decisions, s."""
     first_rest: float = number(1.5, "s", least=0.0)
-    """Standing still at the start, s: a robot that stands learns its gyroscope's bias,
-    which it cannot tell from a turn as it walks."""
+    """Before this it does not set off, s: while it stands it learns its gyroscope's
+    bias, which it cannot tell from a turn as it walks."""
     settle_time: float = number(0.4, "s", least=0.0)
     """Standing still before a look on which a path is planned, s."""
     look_period: float = number(0.5, "s", least=1e-3)
@@ -139,8 +139,7 @@ def decide(
     if before.coming is not None:
         return before.at(time)
     if before.activity == "look":
-        stood = time - before.since >= params.settle_time
-        if not stood or time < params.first_rest or frames == 0:
+        if time - before.since < params.settle_time or frames == 0:
             return before
         return _look_and_plan(before, time, sources, params, thinking)
     if before.activity == "move" and time - before.looked >= params.look_period:
@@ -162,14 +161,14 @@ def _look_and_plan(
     looking = dataclasses.replace(before, looked=time)
     known = dataclasses.replace(looking, environment=environment)
     planned = _plan(known, ready, sources, params)
-    planning = _turn_to(known, "plan", seen).until(ready, planned)
+    planning = _turn_to(known, "plan", seen).until(planned.since, planned)
     return looking.until(seen, planning).at(time)
 
 
 def _plan(
     before: PathDecision, ready: float, sources: Sources, params: PathExecutiveParams
 ) -> PathDecision:
-    """What is to be done from `ready` on, s."""
+    """What is to be done when the plan is ready, s, or later after the first rest."""
     footsteps = sources.footsteps()
     known = dataclasses.replace(
         before, path_plan=sources.path(), footstep_plan=footsteps
@@ -179,9 +178,10 @@ def _plan(
         status, reason = "infeasible", f"not there after {before.plans} plans"
     if status != "planned":
         return _turn_to(known, "stand", ready, status, reason)
-    plan = sources.motion().starting_at(ready)
+    start = ready_time(ready, max(0.0, params.first_rest - ready), params.period)
+    plan = sources.motion().starting_at(start)
     moving = dataclasses.replace(known, motion_plan=plan, plans=before.plans + 1)
-    return _turn_to(moving, "move", ready)
+    return _turn_to(moving, "move", start)
 
 
 def _look_on_the_way(

@@ -119,8 +119,8 @@ def test_late_touch_down_searches_for_the_ground() -> None:
         state, pose, rate = tick(state, felt=False)
         heights.append(pose[2])
         rates.append(rate[2])
-    gain, slow = PARAMS.search_acceleration * T, PARAMS.landing_speed
-    np.testing.assert_allclose(rates[:2], [-slow - gain, -slow - 2 * gain])
+    gain = PARAMS.search_acceleration * T
+    np.testing.assert_allclose(rates[:3], [-gain, -2 * gain, -3 * gain])
     assert rates[-1] == -PARAMS.search_speed
     np.testing.assert_allclose(np.diff(heights), np.array(rates[1:]) * T, atol=1e-12)
     np.testing.assert_allclose(pose[[0, 1, 3, 4, 5]], GROUND[[0, 1, 3, 4, 5]])
@@ -132,6 +132,14 @@ def test_late_touch_down_searches_for_the_ground() -> None:
         state, pose, rate = tick(state, felt=True, measured=lower)
     np.testing.assert_allclose(pose, lower, atol=1e-5)
     np.testing.assert_allclose(rate, STILL, atol=1e-4)
+
+
+def test_a_foot_that_goes_down_as_it_misses_the_ground_goes_on() -> None:
+    """No faster for that, and no slower."""
+    state = in_the_air(standing(), 0.5, rate=0.2 * DOWN)
+    _, _, rate = tick(state, felt=False)
+    gain = PARAMS.search_acceleration * T
+    assert rate[2] == pytest.approx(0.2 * DOWN[2] - gain)
 
 
 def test_search_ends_at_its_depth() -> None:

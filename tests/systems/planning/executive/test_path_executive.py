@@ -124,19 +124,29 @@ def test_looks_after_it_has_stood_still_and_has_a_frame() -> None:
 
 
 def test_it_stands_at_the_start_to_know_its_gyroscope() -> None:
-    """Then alone: a rest later on is as short as the settling."""
-    start = PathDecision(STAND)
+    """It has a plan and waits; later on it sets off as soon as it has one."""
     patient = replace(PARAMS, first_rest=2.0)
-    assert decided(start, 1.99, params=patient) is start
-    going = decided(
-        start,
-        2.0,
+    seen = {"environment": Environment(), "footsteps": PLANNED, "plan": WALK}
+    waiting = decided(PathDecision(STAND), 0.5, params=patient, **seen)  # type: ignore
+    assert waiting.activity == "plan"
+    assert waiting.motion_plan is STAND
+    going = waiting.at(2.0)
+    assert (going.activity, going.motion_plan.start_time) == ("move", 2.0)
+    later = decided(PathDecision(STAND, since=5.0), 6.0, params=patient, **seen)  # type: ignore
+    assert (later.activity, later.motion_plan.start_time) == ("move", 6.0)
+
+
+def test_a_refusal_does_not_wait_for_the_first_rest() -> None:
+    """What cannot be walked needs no gyroscope."""
+    refused = FootstepPlan(status="infeasible", reason="why")
+    after = decided(
+        PathDecision(STAND),
+        0.5,
         environment=Environment(),
-        footsteps=PLANNED,
-        plan=WALK,
-        params=patient,
+        footsteps=refused,
+        params=replace(PARAMS, first_rest=2.0),
     )
-    assert going.activity == "move"
+    assert after.status == TaskStatus("infeasible", "stand", "why")
 
 
 def test_plans_from_what_it_sees_and_goes() -> None:
