@@ -15,7 +15,7 @@ def main() -> None:
     # Nothing is written yet; `run`, which has something to keep, takes Ctrl-C over.
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, lambda *_: os._exit(INTERRUPTED))
-    from footfall.diagrams.cli import main as run_command_line
+    from footfall.diagrams.cli.app import main as run_command_line
 
     try:
         run_command_line()

@@ -14,7 +14,7 @@ SLOW = ("open3d", "dash", "plotly", "scipy.stats")
     ("modules", "unused"),
     [
         (
-            "footfall.diagrams.cli, footfall.diagrams.shipped",
+            "footfall.diagrams.cli.app, footfall.diagrams.shipped",
             ("pydrake", "numpy", "scipy", *SLOW),
         ),
         (

@@ -41,7 +41,7 @@ def test_footfall_holds_the_top_level(name: str) -> None:
 def test_nothing_but_footfall_is_installed() -> None:
     """A user has a folder `models` of his own; PyPI has a popular `diagrams`."""
     code = (
-        "import importlib.util as u, footfall.diagrams.cli; "
+        "import importlib.util as u, footfall.diagrams.cli.app; "
         f"print([name for name in {TOP_LEVEL} if u.find_spec(name)])"
     )
     run = subprocess.run(

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from footfall.diagrams.cli import app
+from footfall.diagrams.cli.app import app
 from footfall.diagrams.closed_loop.tasks import build_task
 from footfall.diagrams.robot_report import check_robot
 from footfall.diagrams.scenario import load_scenario

@@ -10,7 +10,7 @@ from pydrake.systems.framework import Context
 from typer.testing import CliRunner
 
 import footfall.diagrams.simulation
-from footfall.diagrams.cli import app
+from footfall.diagrams.cli.app import app
 from footfall.diagrams.closed_loop.task_diagram import TaskDiagram
 from footfall.diagrams.scenario import save_scenario
 from footfall.diagrams.signals import load_run

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner, Result
 
-from footfall.diagrams.cli import app
+from footfall.diagrams.cli.app import app
 from footfall.diagrams.signals import load_run
 
 ROOM = """<environment>

@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 from typer.testing import CliRunner
 
-from footfall.diagrams.cli import app
+from footfall.diagrams.cli.app import app
 from footfall.diagrams.closed_loop.tasks import build_task
 from footfall.diagrams.scenario import load_scenario
 from footfall.diagrams.signals import Run, load_run

@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from footfall.diagrams.cli import LOCAL_HOST, SLOPE, app
+from footfall.diagrams.cli.app import app
+from footfall.diagrams.cli.run import LOCAL_HOST
+from footfall.diagrams.cli.segment import SLOPE
 from footfall.diagrams.figures.live_view import LOCAL_HOST as DEFAULT_HOST
 from footfall.diagrams.scenario import save_scenario
 from footfall.diagrams.shipped import list_scenarios

@@ -1,9 +1,9 @@
-"""Options of the command line that are more than a number or a name."""
+"""The points, directions and angles that commands on point clouds take."""
 
 import math
 from typing import TYPE_CHECKING
 
-from footfall.diagrams.cli_errors import OptionError
+from footfall.diagrams.cli.errors import OptionError
 
 if TYPE_CHECKING:
     from footfall.models.values.vector import Vector

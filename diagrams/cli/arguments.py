@@ -1,0 +1,53 @@
+"""What several commands take, and what they do with it."""
+
+import logging
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+# What simulates takes seconds to import; every command imports what it needs, so that
+# the help text comes at once.
+if TYPE_CHECKING:
+    from footfall.diagrams.scenario import Scenario
+
+DONE = 0
+"""Exit status: the task was done."""
+
+ScenarioArgument = Annotated[
+    str,
+    typer.Argument(
+        metavar="SCENARIO", help="Name of a shipped scenario, or a YAML file."
+    ),
+]
+RunArgument = Annotated[
+    Path, typer.Argument(metavar="RUN", help="A run folder that `run` has written.")
+]
+SetOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="KEY=VALUE",
+        help="Change a field of the scenario, e.g. scene.staircase.rise=0.18. "
+        "May be given several times.",
+    ),
+]
+
+
+def load_named(name: str, overrides: list[str] | None, seed: int | None) -> "Scenario":
+    """Loads a scenario with what was changed on the command line.
+
+    Raises:
+        ScenarioError: it cannot be used.
+    """
+    from footfall.diagrams.scenario import load_scenario
+
+    changes = list(overrides or [])
+    if seed is not None:
+        changes.append(f"simulation.seed={seed}")
+    return load_scenario(name, changes)
+
+
+def quiet_drake() -> None:
+    """Silences Drake: it tells of every port that Meshcat opens; nobody asked."""
+    logging.getLogger("drake").setLevel(logging.ERROR)

@@ -1,0 +1,93 @@
+"""The commands that draw a run or a scenario."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from footfall.diagrams.cli.arguments import (
+    RunArgument,
+    ScenarioArgument,
+    SetOption,
+    load_named,
+    quiet_drake,
+)
+from footfall.diagrams.cli.errors import bad_input_in_one_line
+
+
+def plot(run_folder: RunArgument) -> None:
+    """Draw the figures of a run into its folder `figures`."""
+    with bad_input_in_one_line():
+        from footfall.diagrams.figures.report import plot_run
+
+        for path in plot_run(run_folder):
+            typer.echo(path)
+
+
+def replay(run_folder: RunArgument) -> None:
+    """Write a run as a page that opens without a server."""
+    with bad_input_in_one_line():
+        from footfall.diagrams.figures.replay import replay_run
+
+        quiet_drake()
+        typer.echo(replay_run(run_folder))
+
+
+def render(
+    run_folder: RunArgument,
+    frames: Annotated[
+        int, typer.Option(metavar="N", min=1, help="How many pictures.")
+    ] = 12,
+    start: Annotated[
+        float | None,
+        typer.Option(
+            "--from",
+            metavar="S",
+            help="When the first is taken; by default when the robot first moves, or a "
+            "step before it crosses something.",
+            show_default=False,
+        ),
+    ] = None,
+    end: Annotated[
+        float | None,
+        typer.Option(
+            "--to",
+            metavar="S",
+            help="When the last is taken; by default when the robot last moves, or a "
+            "step after it has crossed.",
+            show_default=False,
+        ),
+    ] = None,
+) -> None:
+    """Render a run as a film strip, headless, into its folder `figures`."""
+    with bad_input_in_one_line():
+        from footfall.diagrams.figures.film_strip import render_run
+
+        quiet_drake()
+        typer.echo(render_run(run_folder, frames, start, end))
+
+
+def diagram(
+    scenario: ScenarioArgument,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="SVG file to write; by default SCENARIO.svg.",
+            show_default=False,
+        ),
+    ] = None,
+    overrides: SetOption = None,
+) -> None:
+    """Draw the block diagram of a scenario as SVG."""
+    with bad_input_in_one_line():
+        from footfall.diagrams.closed_loop.tasks import build_task
+        from footfall.diagrams.figures.block_diagram import block_diagram_svg
+
+        quiet_drake()
+        chosen = load_named(scenario, overrides, None)
+        path = out or Path(f"{chosen.name}.svg")
+        picture = block_diagram_svg(build_task(chosen).diagram, chosen.name)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(picture, encoding="utf-8")
+    typer.echo(path)
