@@ -53,59 +53,80 @@ Outcome: TypeAlias = Literal[
 
 @dataclass(frozen=True, kw_only=True)
 class Judgement:
-    """What became of the task; a figure that was not measured is None."""
+    """What became of the task; a figure that was not measured is None.
+
+    A text stands below the field, or the fields, that it explains; see `meanings`.
+    """
 
     outcome: Outcome
     reason: str
-    """In one line."""
+    """What became of the task, and why, in one line; "cut" also of a run that has no
+    summary."""
     footsteps: int | None = None
     steps_climbed: int | None = None
+    """How many footsteps were taken, and the highest tread that both feet came to rest
+    on or above: loaded and flat for 0.2 s, before any fall; null where no stairs were
+    to be climbed."""
     max_torque_fraction: float | None = None
     max_torque_joint: str | None = None
+    """Largest torque of any joint over its limit in the URDF, and which joint's."""
     torque_limit_s: float | None = None
-    """For how long any joint's torque was at its limit, where the plant clips it."""
     torque_limit_joint: str | None = None
-    """Which joint's was most often."""
+    """For how long any joint's torque was at its limit, and which most often."""
     max_wanted_torque_fraction: float | None = None
-    """Largest torque that a servo wanted, before clipping, over its limit."""
     max_wanted_torque_joint: str | None = None
+    """Largest torque that a joint's servo wanted, over its limit, and which joint's;
+    the plant applies no more than the limit."""
     max_speed_fraction: float | None = None
     max_speed_joint: str | None = None
+    """Largest speed of any joint over its limit in the URDF, and which joint's."""
     min_zmp_margin_m: float | None = None
+    """Least distance of the measured zero-moment point from the edge of the support
+    polygon; negative outside."""
     min_static_margin_m: float | None = None
-    """Least signed distance of the true CoM to the edge of the static-stability polygon
-    of the soles that truly bear weight; below zero while a dynamic motion passes over
-    an edge."""
+    """Least signed distance of the true centre of mass from the edge of the
+    static-stability polygon of the soles that truly bear weight; meant for quasi-static
+    motion, negative is normal in a dynamic one."""
     max_dcm_error_m: float | None = None
     com_rms_error_m: float | None = None
+    """How far the divergent component of motion (at most) and the centre of mass (root
+    mean square) were from their references."""
     max_foot_slip_m: float | None = None
+    """Farthest that a foot slid while it stood."""
     max_impact_body_weights: float | None = None
-    """Largest upward force on a foot, averaged over 10 ms."""
+    """Largest upward force on a foot, averaged over 10 ms, looked at every step of the
+    plant."""
     max_friction_ratio: float | None = None
-    """Largest horizontal over upward force of a loaded foot, both averaged over
-    10 ms."""
+    """Largest horizontal over upward force of a foot that bears more than a fifth of
+    the weight, both averaged over 10 ms."""
     min_self_distance_m: float | None = None
-    """Nearest that two of the robot's own bodies came; None where none came near."""
     min_self_distance_bodies: tuple[str, str] | None = None
+    """Nearest that two of the robot's own bodies came that may collide, and which; null
+    beyond 10 cm."""
     min_clearance_m: float | None = None
-    goal_error_m: float | None = None
-    """Horizontal distance of the feet's midpoint to the goal at the end."""
-    goal_turn_rad: float | None = None
-    """How far the feet's mean heading is from the goal's at the end."""
-    climb_time_s: float | None = None
-    """From the first motion until the last foot came to stand on the top tread: the
-    time spent moving alone, without scanning, planning and coming to rest."""
-    obstacles_crossed: int | None = None
-    crossing_time_s: float | None = None
-    """Phases 1 to 3 over an obstacle, the longest: from the first foot's lift-off to
-    the second's touch-down, all that the robot does in between included."""
-    crossing_impact_body_weights: float | None = None
-    """Largest upward force, averaged over 10 ms, on a foot as it lands beyond an
-    obstacle."""
     min_clearance_body: str | None = None
-    """Which part of the robot came nearest to an obstacle."""
+    """Least distance between a swinging sole and the edges of the steps; over an
+    obstacle, between any part of the robot and the obstacle, and which part."""
+    goal_error_m: float | None = None
+    goal_turn_rad: float | None = None
+    """Horizontal distance of the feet's midpoint from the goal at the end, and turn of
+    their mean heading from the goal's, where there is one."""
+    climb_time_s: float | None = None
+    """From the first motion until the last foot stood on the top tread: the time spent
+    moving alone, without scanning, thinking (segmenting and planning) and coming to
+    rest."""
+    obstacles_crossed: int | None = None
+    """How many were stepped over."""
+    crossing_time_s: float | None = None
+    crossing_impact_body_weights: float | None = None
+    """From the first foot's lift-off to the second's touch-down, all in between
+    included (it is planned before, so no thinking is in it), and the largest upward
+    force, averaged over 10 ms, on a foot that lands; of what both feet stepped over,
+    not of what was walked past."""
     crossing: Mapping[str, Json] | None = None
-    """What the planner says of its crossings."""
+    """What the planner says of its crossings; of quasi-static ones also how far the
+    centre of mass keeps inside the stance and the largest share of an effort limit that
+    standing takes."""
 
 
 def judge(evidence: Evidence) -> Judgement:
