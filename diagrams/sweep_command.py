@@ -1,25 +1,14 @@
-"""What `footfall sweep` does: checks, runs, tabulates and draws; and reads it back."""
+"""What `footfall sweep` does: checks, runs, tabulates and draws."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
-
-import pandas as pd
 
 from footfall.diagrams.scenario import ScenarioError, load_scenario
 from footfall.diagrams.sweep.definition import Sweep, SweepError, load_sweep_file
 from footfall.diagrams.sweep.figures import draw_sweep
 from footfall.diagrams.sweep.runner import JobEnd, run_sweep
 from footfall.diagrams.sweep.sampling import jobs_of
-from footfall.diagrams.sweep.table import (
-    COST_FILE,
-    REPORT_FILE,
-    TABLE_FILE,
-    Rate,
-    rate_of,
-    write_tables,
-)
+from footfall.diagrams.sweep.table import Rate, rate_of, write_tables
 
 SWEEPS_FOLDER = Path("sweeps")
 """Where sweeps go by default."""
@@ -69,37 +58,3 @@ def check_samples(sweep: Sweep, file: Path) -> None:
             load_scenario(sweep.scenario, job.changes(sweep))
         except ScenarioError as error:
             raise SweepError(f"{file}: run {job.number}: {error}") from None
-
-
-@dataclass(frozen=True)
-class SweepFolder:
-    """A sweep's folder, read back."""
-
-    folder: Path
-
-    @cached_property
-    def table(self) -> pd.DataFrame:
-        """A row a run: varied fields, seed, outcome, figures, the command again."""
-        return pd.read_parquet(self.folder / TABLE_FILE)
-
-    @cached_property
-    def costs(self) -> pd.DataFrame:
-        """What each run took: wall and processor time, s, and memory, MB."""
-        return pd.read_parquet(self.folder / COST_FILE)
-
-    @property
-    def report(self) -> str:
-        """The report, Markdown."""
-        return (self.folder / REPORT_FILE).read_text(encoding="utf-8")
-
-
-def load_sweep(folder: Path | str) -> SweepFolder:
-    """Gives a sweep back: `.table`, `.costs`, `.report`.
-
-    Raises:
-        SweepError: the folder holds no sweep that has come to a table.
-    """
-    path = Path(folder)
-    if not (path / TABLE_FILE).is_file():
-        raise SweepError(f"{path}: not a sweep's folder, it has no {TABLE_FILE}")
-    return SweepFolder(path)

@@ -23,7 +23,7 @@ SLOW = ("open3d", "dash", "plotly", "scipy.stats")
         ),
         ("footfall.diagrams.scenario", ("pandas", "matplotlib", *SLOW)),
         (
-            "footfall.diagrams.figures.report, footfall.diagrams.figures.replay, "
+            "footfall.diagrams.figures.run_figures, footfall.diagrams.figures.replay, "
             "footfall.diagrams.figures.film_strip",
             SLOW,
         ),

@@ -8,6 +8,7 @@ import typer
 from footfall.diagrams.cli.check_robot import check_robot_file
 from footfall.diagrams.cli.estimate import estimate
 from footfall.diagrams.cli.pictures import diagram, plot, render, replay
+from footfall.diagrams.cli.report import report
 from footfall.diagrams.cli.run import run
 from footfall.diagrams.cli.scenarios import fields, list_shipped
 from footfall.diagrams.cli.segment import segment
@@ -57,6 +58,7 @@ for name, command in (
     ("sweep", sweep),
     ("check-robot", check_robot_file),
     ("segment", segment),
+    ("report", report),
     ("plot", plot),
     ("estimate", estimate),
     ("replay", replay),

@@ -18,7 +18,7 @@ from footfall.diagrams.cli.errors import bad_input_in_one_line
 def plot(run_folder: RunArgument) -> None:
     """Draw the figures of a run into its folder `figures`."""
     with bad_input_in_one_line():
-        from footfall.diagrams.figures.report import plot_run
+        from footfall.diagrams.figures.run_figures import plot_run
 
         for path in plot_run(run_folder):
             typer.echo(path)

@@ -7,7 +7,7 @@ from pydrake.systems.framework import Diagram
 
 from footfall.diagrams.figures.block_diagram import block_diagram_svg
 from footfall.diagrams.figures.replay import replay_run
-from footfall.diagrams.figures.report import plot_run
+from footfall.diagrams.figures.run_figures import plot_run
 from footfall.diagrams.signal_files import whole_file
 from footfall.diagrams.signals import load_run
 

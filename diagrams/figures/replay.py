@@ -27,6 +27,15 @@ MAX_FRAMES = 2500
 15 MB."""
 
 
+OPEN_CONTROLS = """<script>
+    viewer.gui.open();
+    viewer.gui.width = 360;
+    viewer.gui.__folders["Scene"].close();
+  </script>
+"""
+"""Put at the end of Meshcat's page; the folder with the time slider opens itself."""
+
+
 def replay_html(
     robot: RobotModel,
     scene: SceneParams,
@@ -90,7 +99,7 @@ def replay_html(
     visualizer.StopRecording()
     visualizer.PublishRecording()
     _place_camera(meshcat, positions)
-    return meshcat.StaticHtml()
+    return with_open_controls(meshcat.StaticHtml())
 
 
 def replay_run(folder: Path) -> Path:
@@ -111,6 +120,16 @@ def replay_run(folder: Path) -> Path:
     with whole_file(path) as partial:
         partial.write_text(html, encoding="utf-8")
     return path
+
+
+def with_open_controls(page: str) -> str:
+    """Opens the panel with the time slider, which is closed in Meshcat's page.
+
+    Args:
+        page: what `Meshcat.StaticHtml` gives.
+    """
+    before, end, after = page.rpartition("</body>")
+    return f"{before}{OPEN_CONTROLS}{end}{after}"
 
 
 def _place_camera(meshcat: Meshcat, positions: Vector) -> None:

@@ -1,7 +1,7 @@
 """The definition of a sweep: what is varied and how, read from a YAML file."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, Literal, TypeAlias, cast
 
@@ -85,6 +85,27 @@ def load_sweep_file(path: Path) -> Sweep:
         return _sweep(data, path)
     except FieldError as error:
         raise SweepError(f"{path}: {error}") from None
+
+
+def sweep_to_json(sweep: Sweep) -> dict[str, Any]:
+    """Writes a sweep as plain JSON data; `sweep_from_json` reads it back equal."""
+    return asdict(sweep)
+
+
+def sweep_from_json(data: dict[str, Any]) -> Sweep:
+    """Reads what `sweep_to_json` has written.
+
+    Raises:
+        KeyError, TypeError: it is something else.
+    """
+    listed: dict[str, Any] = {
+        name: tuple(data[name]) for name in ("changes", "seeds", "group_by")
+    }
+    listed["fields"] = tuple(
+        (path, Range(**values) if isinstance(values, dict) else tuple(values))
+        for path, values in data["fields"]
+    )
+    return Sweep(**{**data, **listed})
 
 
 def _sweep(data: dict[str, Any], path: Path) -> Sweep:

@@ -1,5 +1,6 @@
 """The figures of a sweep: success over one field, outcomes over two."""
 
+from dataclasses import dataclass
 from itertools import combinations
 from pathlib import Path
 
@@ -26,7 +27,16 @@ MOST_PAIRS = 3
 """So many pairs of fields are drawn."""
 
 
-def draw_sweep(sweep: Sweep, table: pd.DataFrame, folder: Path) -> list[Path]:
+@dataclass(frozen=True)
+class SweepFigure:
+    """A figure of a sweep."""
+
+    path: Path
+    fields: tuple[str, ...]
+    """Over one field success is drawn, over two outcomes."""
+
+
+def draw_sweep(sweep: Sweep, table: pd.DataFrame, folder: Path) -> list[SweepFigure]:
     """Draws success over every field and outcomes over pairs of fields.
 
     Args:
@@ -35,7 +45,7 @@ def draw_sweep(sweep: Sweep, table: pd.DataFrame, folder: Path) -> list[Path]:
         folder: of the sweep; the pictures go into `figures`.
 
     Returns:
-        The files that were written.
+        What was drawn.
     """
     (folder / FIGURES_FOLDER).mkdir(exist_ok=True)
     names = [name for name, _ in sweep.fields if table[name].nunique() > 1]
@@ -44,11 +54,13 @@ def draw_sweep(sweep: Sweep, table: pd.DataFrame, folder: Path) -> list[Path]:
     for name in names:
         figure = Figure(figsize=(6.0, 3.6), layout="constrained")
         _success(figure.subplots(), table, name)
-        drawn.append(_save(figure, folder, f"success-{name}"))
+        path = _save(figure, folder, f"success-{name}")
+        drawn.append(SweepFigure(path, (name,)))
     for x, y in list(combinations(numbers, 2))[:MOST_PAIRS]:
         figure = Figure(figsize=(6.0, 4.5), layout="constrained")
         _outcomes(figure.subplots(), table, x, y)
-        drawn.append(_save(figure, folder, f"outcomes-{x}-{y}"))
+        path = _save(figure, folder, f"outcomes-{x}-{y}")
+        drawn.append(SweepFigure(path, (x, y)))
     return drawn
 
 
@@ -62,10 +74,12 @@ def _success(ax: Axes, table: pd.DataFrame, name: str) -> None:
             low, high = rate.interval()
             ax.plot([place, place], [100.0 * low, 100.0 * high], color="#0072b2", lw=2)
             ax.plot(place, 100.0 * rate.share, "o", color="#0072b2", ms=8)
-            ax.annotate(f"{rate.successes}/{rate.runs}", (place, 4.0), ha="center")
+            ax.annotate(f"{rate.successes}/{rate.runs}", (place, 105.0), ha="center")
     ax.set_xticks(np.arange(len(labels)), labels)
-    ax.set(xlabel=name, ylabel="success [%]", ylim=(0.0, 105.0))
+    ax.set(xlabel=name, ylabel="success [%]", ylim=(-3.0, 114.0))
+    ax.set_yticks(np.arange(0.0, 101.0, 20.0))
     ax.set_xlim(-0.5, len(labels) - 0.5)
+    ax.grid(axis="y", alpha=0.3)
 
 
 def _outcomes(ax: Axes, table: pd.DataFrame, x: str, y: str) -> None:

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
 from footfall.diagrams.signal_files import whole_file
-from footfall.diagrams.sweep.definition import Sweep, SweepError
+from footfall.diagrams.sweep.definition import Sweep, SweepError, sweep_to_json
 from footfall.diagrams.sweep.sampling import Job, jobs_of
 
 DEFINITION_FILE = "sweep.json"
@@ -193,10 +193,10 @@ def _take_folder(sweep: Sweep, jobs: Sequence[Job], folder: Path) -> None:
             )
     elif folder.exists() and any(folder.iterdir()):
         raise SweepError(f"--out {folder}: exists and is not an empty folder")
-    else:
-        folder.mkdir(parents=True, exist_ok=True)
-        with whole_file(path) as partial:
-            text = json.dumps({"name": sweep.name, "keys": keys}, indent=1)
-            partial.write_text(text + "\n", encoding="utf-8")
+    folder.mkdir(parents=True, exist_ok=True)
+    # Anew each time: how it is grouped and kept may change without another run.
+    with whole_file(path) as partial:
+        data = {"keys": keys, "sweep": sweep_to_json(sweep)}
+        partial.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
     for name in (RESULTS_FOLDER, RUNS_FOLDER, JOBS_FOLDER):
         (folder / name).mkdir(exist_ok=True)

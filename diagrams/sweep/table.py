@@ -145,6 +145,27 @@ def _text(value: object) -> str | None:
     return None if missing else str(value)
 
 
+def rates_by_field(
+    sweep: Sweep, table: pd.DataFrame
+) -> list[tuple[str, list[tuple[str, Rate]]]]:
+    """Counts success by the groups of each field that a sweep is grouped by.
+
+    Returns:
+        Field by field the label and the rate of every group; all varied fields where
+        the sweep does not say which.
+    """
+    return [
+        (
+            field,
+            [
+                (str(group), rate_of(runs))
+                for group, runs in table.groupby(groups_of(table, field), sort=False)
+            ],
+        )
+        for field in sweep.group_by or [name for name, _ in sweep.fields]
+    ]
+
+
 def report(sweep: Sweep, table: pd.DataFrame) -> str:
     """Writes the table as Markdown, success first."""
     rate, fields = rate_of(table), [name for name, _ in sweep.fields]
@@ -163,10 +184,9 @@ def report(sweep: Sweep, table: pd.DataFrame) -> str:
     if missing:
         again = "the same command tries them again"
         lines += ["", f"Without a result: {missing}; {again}."]
-    for field in sweep.group_by or fields:
+    for field, rates in rates_by_field(sweep, table):
         lines += ["", f"## By `{field}`", "", "| | success |", "|---|---|"]
-        for group, runs in table.groupby(groups_of(table, field), sort=False):
-            group_rate = rate_of(runs)
+        for group, group_rate in rates:
             text = str(group_rate) if group_rate.runs else "no result yet"
             lines.append(f"| {group} | {text} |")
     failures = table[table["outcome"] != SUCCESS]

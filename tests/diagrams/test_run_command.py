@@ -98,7 +98,7 @@ def test_a_signal_while_it_is_drawn_keeps_what_there_is(
         os.kill(os.getpid(), number)
 
     monkeypatch.setattr(
-        "footfall.diagrams.figures.report.FigureCanvasAgg.print_png", print_png
+        "footfall.diagrams.figures.run_figures.FigureCanvasAgg.print_png", print_png
     )
     result = footfall_run(stand, "--out", "out")
     assert result.exit_code == status

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from footfall.diagrams.figures.report import plot_run
+from footfall.diagrams.figures.run_figures import plot_run
 from footfall.diagrams.judge.evidence import gather, joint_velocities
 from footfall.diagrams.judge.evidence_signals import fall
 from footfall.diagrams.judge.watch import RobotWatch

@@ -21,7 +21,7 @@ from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterPa
 
 COMMANDS = (
     *("list", "run", "segment", "plot", "replay", "render", "diagram"),
-    "check-robot",
+    *("check-robot", "report"),
 )
 
 
@@ -129,6 +129,7 @@ def test_the_reason_stays_one_line_as_it_is(stand, tmp_path) -> None:
         (("diagram", "stairs-exp9"), ("stairs-exp9",)),
         (("plot", "nowhere"), ("nowhere", "no such folder")),
         (("replay", "."), ("not a run folder", "scenario.yaml")),
+        (("report", "."), ("neither a run's folder nor a sweep's",)),
         (("segment", "nowhere.pcd"), ("nowhere.pcd",)),
         (("segment", "x.pcd", "--gravity", "0,0"), ("--gravity", "'0,0'")),
         (("segment", "x.pcd", "--gravity", "0,0,0"), ("--gravity",)),
@@ -244,13 +245,17 @@ def test_ctrl_c_before_anything_is_simulated(stand, monkeypatch) -> None:
 
 
 def test_pictures_of_a_run_are_made_again(stand, tmp_path) -> None:
-    """By `plot` and `replay`; they print the paths."""
+    """By `plot`, `replay` and `report`; they print the paths, and what is missing."""
     footfall("run", stand, "--out", tmp_path / "out")
     plotted = footfall("plot", tmp_path / "out")
     assert plotted.exit_code == 0
     assert str(tmp_path / "out" / "figures" / "joints.png") in plotted.stdout
     replayed = footfall("replay", tmp_path / "out")
     assert replayed.stdout.strip() == str(tmp_path / "out" / "replay.html")
+    (tmp_path / "out" / "signals" / "plant.state.parquet").unlink()
+    reported = footfall("report", tmp_path / "out")
+    assert (reported.exit_code, reported.stdout) == (0, f"{tmp_path}/out/report.html\n")
+    assert reported.stderr.splitlines()[0].startswith("footfall: no film strip: ")
 
 
 def test_diagram_is_written(stand, tmp_path) -> None:

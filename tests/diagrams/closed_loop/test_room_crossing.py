@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 
 from footfall.diagrams.closed_loop.tasks import build_task
 from footfall.diagrams.figures.replay import replay_run
-from footfall.diagrams.figures.report import plot_run
 from footfall.diagrams.figures.room_view import draw_room
+from footfall.diagrams.figures.run_figures import plot_run
 from footfall.diagrams.scenario import load_scenario
 from footfall.diagrams.signals import Run, load_run
 from footfall.diagrams.simulation import run_task

@@ -5,8 +5,13 @@ import pytest
 from matplotlib.image import imread
 
 from footfall.diagrams.figures.illustrations import illustrate
-from footfall.diagrams.figures.replay import MAX_FRAMES, replay_html, replay_run
-from footfall.diagrams.figures.report import plot_run, top_view
+from footfall.diagrams.figures.replay import (
+    MAX_FRAMES,
+    OPEN_CONTROLS,
+    replay_html,
+    replay_run,
+)
+from footfall.diagrams.figures.run_figures import plot_run, top_view
 from footfall.diagrams.run_data import read_run_data
 from footfall.diagrams.signals import RunError
 from footfall.diagrams.simulation import run_task
@@ -78,6 +83,7 @@ def test_replay_opens_without_a_server(run_folder) -> None:
     path = replay_run(run_folder)
     text = path.read_text()
     assert path == run_folder / "replay.html"
+    assert f"{OPEN_CONTROLS}</body>" in path.read_text()
     assert 'src="http' not in text
     assert text.count("data:application/octet-binary;base64") > 40
     assert not list(run_folder.glob("*.partial"))

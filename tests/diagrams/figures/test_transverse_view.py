@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from footfall.diagrams.figures.report import plot_run
+from footfall.diagrams.figures.run_figures import plot_run
 from footfall.diagrams.figures.transverse_view import support_areas, transverse_view
 from footfall.diagrams.run_data import read_run_data
 from footfall.diagrams.signal_names import POLYGON_SIGNAL

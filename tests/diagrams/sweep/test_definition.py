@@ -1,10 +1,17 @@
 """The definition of a sweep: what is refused, by file and field."""
 
+import json
 from pathlib import Path
 
 import pytest
 
-from footfall.diagrams.sweep.definition import Range, SweepError, load_sweep_file
+from footfall.diagrams.sweep.definition import (
+    Range,
+    SweepError,
+    load_sweep_file,
+    sweep_from_json,
+    sweep_to_json,
+)
 
 
 def test_a_definition_is_read(tmp_path: Path) -> None:
@@ -30,6 +37,7 @@ def test_a_definition_is_read(tmp_path: Path) -> None:
         "scene.staircase.closed_risers": (True, False),
     }
     assert (sweep.name, sweep.keep) == ("study", "failures")
+    assert sweep_from_json(json.loads(json.dumps(sweep_to_json(sweep)))) == sweep
 
 
 @pytest.mark.parametrize(

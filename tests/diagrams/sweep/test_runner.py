@@ -15,6 +15,7 @@ from footfall.diagrams.sweep.definition import Sweep, SweepError
 from footfall.diagrams.sweep.figures import draw_sweep
 from footfall.diagrams.sweep.runner import command_of, run_sweep
 from footfall.diagrams.sweep.sampling import jobs_of
+from footfall.diagrams.sweep.sweep_folder import load_sweep
 from footfall.diagrams.sweep.table import (
     Rate,
     make_table,
@@ -22,7 +23,7 @@ from footfall.diagrams.sweep.table import (
     report,
     write_tables,
 )
-from footfall.diagrams.sweep_command import load_sweep, sweep_scenario
+from footfall.diagrams.sweep_command import sweep_scenario
 
 STAND_IN = (sys.executable, str(Path(__file__).with_name("stand_in.py")))
 SWEEP = Sweep(
@@ -70,8 +71,8 @@ def test_every_run_has_a_row(tmp_path: Path) -> None:
     assert list(back.costs["memory_mb"]) == [2.0] * 12
     assert back.report == text
     drawn = draw_sweep(SWEEP, table, tmp_path / "s")
-    assert {path.name for path in drawn} >= {"success-scene.staircase.rise.png"}
-    assert all(path.stat().st_size > 5000 for path in drawn)
+    assert {one.path.name for one in drawn} >= {"success-scene.staircase.rise.png"}
+    assert all(one.path.stat().st_size > 5000 for one in drawn)
 
 
 def test_what_dies_or_hangs_is_told_and_the_rest_goes_on(tmp_path: Path) -> None:

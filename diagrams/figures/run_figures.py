@@ -76,39 +76,26 @@ def plot_run(folder: Path) -> list[Path]:
         ScenarioError: its scenario cannot be read.
     """
     data = read_run_data(folder)
-    figures: dict[str, Callable[[RunData], Figure]] = {
-        "top_view": top_view,
-        "joints": joints_figure,
-        "feet": feet_figure,
-        "balance": balance_figure,
-    }
-    if has_estimate(data):
-        figures["estimate"] = estimate_figure
-    if data.treads:
-        figures["side_view"] = side_view
-    if data.treads and POLYGON_SIGNAL in data.run.value_names:
-        figures["static_stability"] = transverse_view
     crossings = read_crossings(data)
+    figures: dict[str, Callable[[], Figure]] = {
+        name: partial(draw, data)
+        for name, (draw, shows) in RUN_FIGURES.items()
+        if shows(data)
+    }
     if crossings is not None:
         for name, draw_crossing in CROSSING_FIGURES.items():
-            figures[name] = partial(_draw_crossing, draw_crossing, crossings)
+            figures[name] = partial(draw_crossing, crossings)
     target = folder / FIGURES_FOLDER
     target.mkdir(exist_ok=True)
     paths = []
     for name, draw in figures.items():
         path = target / f"{name}.png"
-        canvas = FigureCanvasAgg(draw(data))
+        canvas = FigureCanvasAgg(draw())
         canvas.figure.set_dpi(DPI)
         with whole_file(path) as partial_path:
             canvas.print_png(str(partial_path))  # type: ignore[no-untyped-call]
         paths.append(path)
     return paths
-
-
-def _draw_crossing(
-    draw: Callable[[CrossingData], Figure], crossings: CrossingData, _: RunData
-) -> Figure:
-    return draw(crossings)
 
 
 def balance_figure(data: RunData) -> Figure:
@@ -313,3 +300,29 @@ def _draw_rectangle(ax: Axes, tread: Tread) -> None:
     ax.add_patch(
         Polygon(corners[:, :2], fc=TREAD, ec="#7a5c2e", alpha=0.35, lw=1.0, zorder=0)
     )
+
+
+def _always(_: RunData) -> bool:
+    return True
+
+
+def _has_treads(data: RunData) -> bool:
+    return bool(data.treads)
+
+
+def _has_polygons(data: RunData) -> bool:
+    return bool(data.treads) and POLYGON_SIGNAL in data.run.value_names
+
+
+RUN_FIGURES: dict[
+    str, tuple[Callable[[RunData], Figure], Callable[[RunData], bool]]
+] = {
+    "top_view": (top_view, _always),
+    "side_view": (side_view, _has_treads),
+    "balance": (balance_figure, _always),
+    "static_stability": (transverse_view, _has_polygons),
+    "feet": (feet_figure, _always),
+    "joints": (joints_figure, _always),
+    "estimate": (estimate_figure, has_estimate),
+}
+"""What draws each figure, and whether a run has what it shows."""
