@@ -25,6 +25,8 @@ STREAM, PARQUET, LINES = ".arrows", ".parquet", ".jsonl"
 """What the files' names end with."""
 PARTIAL = ".partial"
 """What is appended to the name of a file that is not whole yet."""
+FRAME = b"frame"
+"""Under which key a file's metadata holds the frame of its elements."""
 GROUP = 64
 """How many batches of a stream make a row group of a Parquet file."""
 
@@ -85,9 +87,18 @@ def _name_file(error: BaseException, path: Path) -> None:
         error.filename = str(path)
 
 
-def stream_start(columns: Sequence[str], units: Sequence[str]) -> bytes:
-    """Writes the beginning of an Arrow stream: `time` [s], then a column an element."""
-    return _schema(columns, units).serialize().to_pybytes()  # type: ignore[no-any-return]
+def stream_start(
+    columns: Sequence[str], units: Sequence[str], frame: str = ""
+) -> bytes:
+    """Writes the beginning of an Arrow stream: `time` [s], then a column an element.
+
+    Args:
+        columns: names of the elements.
+        units: their units.
+        frame: what they are expressed in, as `signal_frames` says it.
+    """
+    schema = _schema(columns, units).with_metadata({FRAME: frame})
+    return schema.serialize().to_pybytes()  # type: ignore[no-any-return]
 
 
 def stream_batch(
@@ -181,7 +192,10 @@ class SignalFrames(Mapping[str, pd.DataFrame]):
         self._frames: dict[str, pd.DataFrame] = {}
 
     def __getitem__(self, name: str) -> pd.DataFrame:
-        """Reads a signal's data frame; `frame.attrs["units"]` has the unit by column.
+        """Reads a signal's data frame, a column an element after `time` [s].
+
+        `frame.attrs["units"]` has the unit by column, `frame.attrs["frame"]` what the
+        elements are expressed in, "" where that is not known.
 
         Raises:
             KeyError: the run did not log this signal.
@@ -197,6 +211,8 @@ class SignalFrames(Mapping[str, pd.DataFrame]):
                 item.name: (item.metadata or {}).get(b"unit", b"").decode()
                 for item in table.schema
             }
+            about = table.schema.metadata or {}
+            frame.attrs["frame"] = about.get(FRAME, b"").decode()
             self._frames[name] = frame
         return self._frames[name]
 

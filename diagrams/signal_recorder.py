@@ -21,6 +21,7 @@ from footfall.diagrams.signal_files import (
     stream_batch,
     stream_start,
 )
+from footfall.diagrams.signal_frames import frame_of
 from footfall.models.values.vector import Vector
 from footfall.systems.signal_log import SignalLog
 from footfall.systems.value_log_sink import LoggedValue, ValueLogSink
@@ -261,7 +262,8 @@ class SignalStream:
                 continue
             content = stream_batch(signal.columns, signal.units, rows)
             if name not in sizes:
-                content = stream_start(signal.columns, signal.units) + content
+                start = stream_start(signal.columns, signal.units, frame_of(name))
+                content = start + content
             self._append(name + STREAM, content, sizes, name)
             times[name] = float(rows[-1, 0])
         for name, log in self._recorder.logged_values(self.context).items():

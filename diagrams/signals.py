@@ -2,9 +2,10 @@
 
 A signal is named "SYSTEM.PORT". Vector signals lie in `signals/SYSTEM.PORT.parquet`
 (column `time` [s], then one named column an element with its unit in the column's
-metadata), abstract ones in `signals/SYSTEM.PORT.jsonl` (one {"time": ..., "value":
-{...}} a line, one each time the value changed). While a run goes on, and where it was
-cut, the vector signals are Arrow streams, `signals/SYSTEM.PORT.arrows`.
+metadata, and the frame of all in the file's), abstract ones in
+`signals/SYSTEM.PORT.jsonl` (one {"time": ..., "value": {...}} a line, one each time the
+value changed). While a run goes on, and where it was cut, the vector signals are Arrow
+streams, `signals/SYSTEM.PORT.arrows`.
 """
 
 from dataclasses import dataclass

@@ -14,6 +14,11 @@ from pydrake.systems.primitives import (
 )
 
 from footfall.diagrams.scenario import Scenario, save_scenario
+from footfall.diagrams.signal_files import (
+    make_parquet,
+    stream_batch,
+    stream_start,
+)
 from footfall.diagrams.signals import RunError, SignalRecorder, load_run
 from footfall.models.scenes.scene import SceneParams
 from footfall.models.scenes.staircase import StaircaseParams
@@ -74,6 +79,20 @@ def test_units_lie_in_the_columns_metadata(tmp_path) -> None:
     schema = pq.read_schema(tmp_path / "run" / "signals" / "sine.y.parquet")
     assert [item.name for item in schema] == ["time", "knee", "hip"]
     assert [item.metadata[b"unit"] for item in schema] == [b"s", b"rad", b"Nm"]
+
+
+def test_the_frame_lies_in_the_files_metadata(tmp_path) -> None:
+    """And in the data frame's attributes; a signal of the user's own has none."""
+    write_run(tmp_path / "run")
+    assert load_run(tmp_path / "run").signals["sine.y"].attrs["frame"] == ""
+    start = stream_start(("x",), ("m",), "W, true")
+    batch = stream_batch(("x",), ("m",), np.zeros((1, 2)))
+    (tmp_path / "run" / "signals" / "a.b.arrows").write_bytes(start + batch)
+    frame = load_run(tmp_path / "run").signals["a.b"]
+    assert frame.attrs == {"units": {"time": "s", "x": "m"}, "frame": "W, true"}
+    make_parquet(tmp_path / "run" / "signals" / "a.b.arrows")
+    schema = pq.read_schema(tmp_path / "run" / "signals" / "a.b.parquet")
+    assert schema.metadata[b"frame"] == b"W, true"
 
 
 def test_signal_that_was_not_logged_is_named(tmp_path) -> None:
