@@ -31,6 +31,9 @@ def run_scenario(
     stop: StopSignals,
     start_meshcat: Callable[[], Meshcat] | None = None,
     draw: bool = True,
+    show: Callable[[Summary, Path], None] = print_summary,
+    quiet: bool = False,
+    parent: Path = RUNS_FOLDER,
 ) -> Summary:
     """Simulates a scenario, writes its folder, prints its summary, draws its pictures.
 
@@ -40,11 +43,14 @@ def run_scenario(
         scenario: what is run.
         changes: "key=value" each, by which it differs from what its name says.
         out: where the run goes, new or empty; None for a numbered folder below
-            `RUNS_FOLDER` that tells scenario, seed and changes.
+            `parent` that tells scenario, seed and changes.
         build: makes the closed loop of a scenario.
         stop: notes the signals that come while the run is judged.
         start_meshcat: gives what shows it live; None where nothing does.
         draw: whether its pictures are drawn.
+        show: prints what became of it, and where it was written.
+        quiet: whether progress is kept to itself; what could not be drawn is told.
+        parent: where the folders of runs without `out` lie.
 
     Raises:
         OutError: `out` cannot be used.
@@ -54,29 +60,32 @@ def run_scenario(
     """
     if out is not None:
         require_usable(out)
-    console = Console(stderr=True)
+    console = Console(stderr=True, quiet=quiet)
     with _status(console, "building the diagram"):
         meshcat = start_meshcat() if start_meshcat else None
         task = build(scenario, meshcat)
     if meshcat is not None:
         console.print(f"watch at {meshcat.web_url()}")
     folder = out or make_numbered(
-        RUNS_FOLDER, run_name(scenario.name, scenario.simulation.seed, changes)
+        parent, run_name(scenario.name, scenario.simulation.seed, changes)
     )
     limit = scenario.simulation.max_time
     with _progress(console, limit) as progress:
         rate = 1.0 if meshcat else 0.0
         summary = run_task(task, scenario, folder, progress, rate, stop.held)
     with stop.held():
-        print_summary(summary, folder)
+        show(summary, folder)
     try:
         if summary.outcome == "interrupted" or stop.received is not None:
             raise KeyboardInterrupt
         if not draw:
             return summary
         with _status(console, "drawing replay, block diagram and figures"):
-            for complaint in illustrate(folder, task.diagram):
-                console.print(f"footfall: {complaint}", style="yellow", highlight=False)
+            complaints = illustrate(folder, task.diagram)
+        for complaint in complaints:
+            Console(stderr=True).print(
+                f"footfall: {complaint}", style="yellow", highlight=False
+            )
     except KeyboardInterrupt:
         rest = f"interrupted; `footfall plot {folder}` draws what is missing"
         raise KeyboardInterrupt(rest) from None

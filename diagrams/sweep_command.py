@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from pathlib import Path
+from time import perf_counter
 
 from footfall.diagrams.scenario import ScenarioError, load_scenario
 from footfall.diagrams.sweep.definition import Sweep, SweepError, load_sweep_file
@@ -36,15 +37,37 @@ def sweep_scenario(
     check_samples(sweep, file)
     folder = out or SWEEPS_FOLDER / sweep.name
 
+    begun, tried = perf_counter(), 0
+
     def progress(ended: JobEnd, done: int, of: int) -> None:
+        nonlocal tried
+        tried += 1
         what = ended.reason if ended.end == "done" else f"{ended.end}, {ended.reason}"
-        tell(f"{done}/{of}  run {ended.job.number}  {what}")
+        left = time_left(perf_counter() - begun, tried, of - done)
+        tell(f"{done}/{of}  run {ended.job.number}  {what}{left}")
 
     ends = run_sweep(sweep, folder, jobs, progress)
     table = write_tables(sweep, folder)
     draw_sweep(sweep, table, folder)
     missing = sum(ended.end != "done" for ended in ends)
     return folder, rate_of(table), missing
+
+
+def time_left(passed: float, ended: int, left: int) -> str:
+    """Says how long the runs that are left will take, if they go as those before.
+
+    Args:
+        passed: since the first began, s.
+        ended: how many have ended since.
+        left: how many have not.
+
+    Returns:
+        Something to put after a line; nothing where nothing is left.
+    """
+    if not left:
+        return ""
+    minutes = passed / ended * left / 60.0
+    return f"; about {minutes:.0f} min left" if minutes > 1.0 else "; a minute left"
 
 
 def check_samples(sweep: Sweep, file: Path) -> None:

@@ -1,6 +1,7 @@
 """The command `footfall`: its options, and the commands that it has."""
 
 import logging
+from collections.abc import Callable
 from typing import Annotated
 
 import typer
@@ -22,8 +23,9 @@ app = typer.Typer(
     "timed out, cut), or its folder could not be written; 2 bad input; 130 and 143 "
     "interrupted by Ctrl-C and SIGTERM.",
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
+    # Else the lines of a docstring are not joined to what fits the terminal.
+    rich_markup_mode="markdown",
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
@@ -51,21 +53,78 @@ def options(
     """Options of the command itself; `help` of the app says what it does."""
 
 
-for name, command in (
-    ("list", list_shipped),
-    ("fields", fields),
-    ("run", run),
-    ("sweep", sweep),
-    ("check-robot", check_robot_file),
-    ("segment", segment),
-    ("report", report),
-    ("plot", plot),
-    ("estimate", estimate),
-    ("replay", replay),
-    ("render", render),
-    ("diagram", diagram),
-):
-    app.command(name)(command)
+COMMANDS: tuple[tuple[str, Callable[..., None], tuple[str, ...]], ...] = (
+    ("list", list_shipped, ()),
+    (
+        "fields",
+        fields,
+        (
+            "footfall fields scene.staircase",
+            "footfall fields parameters --task room_crossing",
+            "footfall fields --schema scenario.json",
+        ),
+    ),
+    (
+        "run",
+        run,
+        (
+            "footfall run stairs-exp1",
+            "footfall run stairs-exp1 --set scene.staircase.rise=0.18 --seed 3",
+            "footfall run obstacle-15cm obstacle-20cm --out crossings --quiet",
+            "footfall run my_stairs.yaml --no-draw --json",
+        ),
+    ),
+    ("sweep", sweep, ("footfall sweep docs/sweeps/staircases.yaml --jobs 2",)),
+    (
+        "check-robot",
+        check_robot_file,
+        ("footfall check-robot my_robot.yaml", "footfall check-robot jvrc1"),
+    ),
+    (
+        "segment",
+        segment,
+        (
+            "footfall segment stairs.pcd",
+            "footfall segment scan.ply --gravity 0,-1,0 --viewpoint 0,1.2,0",
+        ),
+    ),
+    (
+        "report",
+        report,
+        ("footfall report runs/stairs-exp1-seed0", "footfall report sweeps/staircases"),
+    ),
+    ("plot", plot, ("footfall plot runs/stairs-exp1-seed0",)),
+    (
+        "estimate",
+        estimate,
+        (
+            "footfall estimate runs/stairs-exp1-seed0",
+            "footfall estimate runs/stairs-exp1-seed0 --set "
+            "parameters.base_estimator.accelerometer=0.05",
+        ),
+    ),
+    ("replay", replay, ("footfall replay runs/stairs-exp1-seed0",)),
+    (
+        "render",
+        render,
+        (
+            "footfall render runs/stairs-exp1-seed0",
+            "footfall render runs/stairs-exp1-seed0 --frames 6 --from 8 --to 11",
+        ),
+    ),
+    (
+        "diagram",
+        diagram,
+        ("footfall diagram stairs-exp1", "footfall diagram room --out room.svg"),
+    ),
+)
+"""Name, what it calls, and examples for its help text."""
+
+for name, command, examples in COMMANDS:
+    # Typer joins the lines of an epilog unless there is a blank one between them.
+    items = (f"- `{example}`" for example in examples)
+    lines = "\n\n".join(("For example:", *items)) if examples else None
+    app.command(name, epilog=lines)(command)
 
 
 def main() -> None:

@@ -14,10 +14,35 @@ if TYPE_CHECKING:
 DONE = 0
 """Exit status: the task was done."""
 
+
+def complete_scenario(begun: str) -> list[str]:
+    """Lists for the shell what a scenario may be that begins so.
+
+    Args:
+        begun: of a shipped scenario's name, or of a path.
+    """
+    from footfall.diagrams.shipped import shipped_scenarios
+
+    path = Path(begun)
+    folder = path if begun.endswith("/") or not begun else path.parent
+    beside = sorted(folder.iterdir()) if folder.is_dir() else []
+    files = [f"{one}/" if one.is_dir() else str(one) for one in beside]
+    names = [*sorted(shipped_scenarios()), *files]
+    ends = ("/", ".yaml", ".yml")
+    return [
+        name
+        for name in names
+        if name.startswith(begun)
+        and (name in shipped_scenarios() or name.endswith(ends))
+    ]
+
+
 ScenarioArgument = Annotated[
     str,
     typer.Argument(
-        metavar="SCENARIO", help="Name of a shipped scenario, or a YAML file."
+        metavar="SCENARIO",
+        help="Name of a shipped scenario, or a YAML file.",
+        autocompletion=complete_scenario,
     ),
 ]
 RunArgument = Annotated[

@@ -8,8 +8,8 @@ import typer
 
 from footfall.diagrams.cli.arguments import (
     DONE,
-    ScenarioArgument,
     SetOption,
+    complete_scenario,
     load_named,
     quiet_drake,
 )
@@ -29,13 +29,21 @@ LOCAL_HOST = "127.0.0.1"
 
 
 def run(
-    scenario: ScenarioArgument,
+    scenarios: Annotated[
+        list[str],
+        typer.Argument(
+            metavar="SCENARIO",
+            help="Names of shipped scenarios, or YAML files, run one after the other.",
+            autocompletion=complete_scenario,
+        ),
+    ],
     out: Annotated[
         Path | None,
         typer.Option(
             metavar="DIR",
             help="Folder to write, new or empty; by default runs/SCENARIO-seedN with "
-            "what was set, numbered if that exists.",
+            "what was set, numbered if that exists. Of several scenarios their folders "
+            "go into it.",
             show_default=False,
         ),
     ] = None,
@@ -50,9 +58,25 @@ def run(
         bool,
         typer.Option(
             "--draw/--no-draw",
-            help="Draw replay, block diagram and figures; `plot` draws figures later.",
+            help="Draw replay, block diagram and figures, 5 to 15 s; `plot` and "
+            "`replay` draw them later.",
         ),
     ] = True,
+    quiet: Annotated[
+        bool,
+        typer.Option(
+            "--quiet",
+            "-q",
+            help="Print no progress, and a line a run in place of the summary.",
+        ),
+    ] = False,
+    as_json: Annotated[
+        bool,
+        typer.Option(
+            "--json",
+            help="Print the summary as JSON, a line a run, in place of the table.",
+        ),
+    ] = False,
     meshcat: Annotated[
         bool, typer.Option("--meshcat", help="Show the run live in a browser.")
     ] = False,
@@ -64,22 +88,54 @@ def run(
         ),
     ] = LOCAL_HOST,
 ) -> None:
-    """Simulate a scenario closed loop; write the run folder; print the summary.
+    """Simulate scenarios closed loop; write the run folders; print the summaries.
 
-    Ctrl-C or SIGTERM ends a run early; it is judged and kept, but not drawn. The
-    signals go to disk while it runs: what is killed has all but its last second.
+    It takes about as long as what is simulated, on one core: stairs-exp1 less than a
+    minute, stairs-exp2 two, a quasi-static climb several. All scenarios are read before
+    the first is run.
+
+    Ctrl-C or SIGTERM ends a run early; it is judged and kept, but not drawn, and what
+    would follow is not run. The signals go to disk while it runs: what is killed has
+    all but its last second.
     """
     with bad_input_in_one_line():
         from footfall.diagrams.closed_loop.tasks import build_task
-        from footfall.diagrams.run_command import run_scenario
+        from footfall.diagrams.judge.summary_table import (
+            print_json,
+            print_line,
+            print_summary,
+        )
+        from footfall.diagrams.run_command import RUNS_FOLDER, run_scenario
+        from footfall.diagrams.run_folder import require_usable
 
         quiet_drake()
         changes = list(overrides or [])
-        chosen = load_named(scenario, changes, seed)
-        show = partial(_start_meshcat, meshcat_host) if meshcat else None
+        chosen = [load_named(scenario, changes, seed) for scenario in scenarios]
+        start = partial(_start_meshcat, meshcat_host) if meshcat else None
+        show = print_json if as_json else print_line if quiet else print_summary
+        parent, several = RUNS_FOLDER, len(chosen) > 1
+        if several and out is not None:
+            require_usable(out)
+            parent, out = out, None
+        outcomes = []
         with StopSignals() as stop, run_ends_in_one_line(stop):
-            summary = run_scenario(chosen, changes, out, build_task, stop, show, draw)
-    raise typer.Exit(DONE if summary.outcome == "completed" else NOT_DONE)
+            for number, one in enumerate(chosen, start=1):
+                if several and not quiet:
+                    typer.echo(f"{number}/{len(chosen)}  {one.name}", err=True)
+                summary = run_scenario(
+                    one,
+                    changes,
+                    out,
+                    build_task,
+                    stop,
+                    start,
+                    draw,
+                    show=show,
+                    quiet=quiet,
+                    parent=parent,
+                )
+                outcomes.append(summary.outcome)
+    raise typer.Exit(DONE if set(outcomes) == {"completed"} else NOT_DONE)
 
 
 def _start_meshcat(host: str) -> "Meshcat":

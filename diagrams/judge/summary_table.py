@@ -1,5 +1,6 @@
 """A summary as a table on the terminal."""
 
+import json
 from pathlib import Path
 
 from rich.console import Console
@@ -36,6 +37,18 @@ def print_summary(summary: Summary, folder: Path) -> None:
             table.add_row(row, shown + note)
     console.print(table)
     console.print(f"written to {folder}", markup=False, soft_wrap=True)
+
+
+def print_line(summary: Summary, folder: Path) -> None:
+    """Prints in one line how a run went, and where it was written."""
+    said = f"{summary.scenario}: {summary.outcome}: {summary.reason}; {folder}"
+    print(" ".join(said.split()))
+
+
+def print_json(summary: Summary, folder: Path) -> None:
+    """Prints a summary as JSON in one line, `folder` first."""
+    data = {"folder": str(folder)} | summary.to_json()
+    print(json.dumps(data, allow_nan=False))
 
 
 def summary_rows(name: str, value: Json) -> list[tuple[str, str]]:

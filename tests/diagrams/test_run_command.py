@@ -1,8 +1,11 @@
 """`footfall run`, ended early: what is kept, printed, and told to the shell."""
 
+import json
 import os
 import signal
 import sys
+from dataclasses import replace
+from pathlib import Path
 from types import ModuleType
 
 import pytest
@@ -181,3 +184,65 @@ def test_a_run_need_not_be_drawn(stand, monkeypatch) -> None:
     result = footfall_run(stand, "--no-draw")
     assert result.exit_code == 0
     assert "completed" in result.stdout
+
+
+def test_several_scenarios_are_run_one_after_the_other(
+    stand, standing, tmp_path
+) -> None:
+    """Each in a folder of its own; one that is not done is status 1."""
+    short = tmp_path / "short.yaml"
+    save_scenario(replace(standing.scenario(max_time=0.05), name="short"), short)
+    result = footfall_run(stand, short, "--no-draw", "--out", "both")
+    assert result.exit_code == 1
+    assert {path.name for path in (tmp_path / "both").iterdir()} == {
+        "standing-seed0",
+        "short-seed0",
+    }
+    assert load_run("both/short-seed0").summary["outcome"] == "timed_out"
+    heads = [line for line in result.stderr.splitlines() if "/2  " in line]
+    assert heads == ["1/2  standing", "2/2  short"]
+    assert "timed_out: not done after 0.05 s" in result.stdout
+
+
+def test_none_is_run_where_one_cannot_be_read(stand, tmp_path) -> None:
+    """Told before the first."""
+    result = footfall_run(stand, "nowhere/x.yaml")
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert "nowhere/x.yaml: no such file" in result.stderr
+    assert not (tmp_path / "runs").exists()
+
+
+def test_what_follows_a_run_that_is_ended_is_not_run(stand, monkeypatch) -> None:
+    """Ctrl-C means all of it."""
+    task_status = TaskDiagram.task_status
+
+    def look(task: TaskDiagram, context: Context) -> TaskStatus:
+        os.kill(os.getpid(), signal.SIGINT)
+        return task_status(task, context)
+
+    monkeypatch.setattr(TaskDiagram, "task_status", look)
+    result = footfall_run(stand, stand, "--out", "both")
+    assert result.exit_code == 130
+    assert [path.name for path in Path("both").iterdir()] == ["standing-seed0"]
+
+
+def test_a_quiet_run_says_one_line(stand, monkeypatch) -> None:
+    """No progress; what could not be drawn is told all the same."""
+    monkeypatch.setattr("footfall.diagrams.run_command.TOLD_EVERY", 0.25)
+    monkeypatch.setattr(
+        "footfall.diagrams.run_command.illustrate", lambda *_: ["no replay: why"]
+    )
+    result = footfall_run(stand, "--quiet", "--out", "out")
+    assert result.exit_code == 0
+    (line,) = result.stdout.splitlines()
+    assert line.startswith("standing: completed: the robot rests")
+    assert line.endswith("; out")
+    assert result.stderr == "footfall: no replay: why\n"
+
+
+def test_json_is_the_summary_in_a_line(stand) -> None:
+    """With where it lies; nothing else is on stdout."""
+    result = footfall_run(stand, "--no-draw", "--json", "--out", "out")
+    (line,) = result.stdout.splitlines()
+    summary = json.loads(Path("out/summary.json").read_text())
+    assert json.loads(line) == {"folder": "out", **summary}

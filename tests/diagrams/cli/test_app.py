@@ -2,14 +2,18 @@
 
 import json
 import math
+import shlex
 import sys
 from types import ModuleType
 
 import numpy as np
 import pytest
+import typer
 from typer.testing import CliRunner
 
+from footfall.diagrams.cli.app import COMMANDS as ALL_COMMANDS
 from footfall.diagrams.cli.app import app
+from footfall.diagrams.cli.arguments import complete_scenario
 from footfall.diagrams.cli.run import LOCAL_HOST
 from footfall.diagrams.cli.segment import SLOPE
 from footfall.diagrams.figures.live_view import LOCAL_HOST as DEFAULT_HOST
@@ -55,6 +59,35 @@ def test_help_names_every_command_and_the_exit_status() -> None:
     assert "Exit status" in result.stdout
     for command in COMMANDS:
         assert footfall(command, "--help").exit_code == 0
+
+
+@pytest.mark.parametrize(
+    "example", [line for _, _, examples in ALL_COMMANDS for line in examples]
+)
+def test_examples_can_be_typed(example) -> None:
+    """Each is in the help text of its command, whose options it uses right."""
+    program, name, *arguments = shlex.split(example)
+    assert program == "footfall"
+    command = typer.main.get_command(app).commands[name]
+    command.make_context(name, list(arguments))
+    shown = " ".join(footfall(name, "--help").stdout.replace("│", "").split())
+    assert " ".join(example.split()) in shown
+
+
+def test_the_shell_completes_scenarios(tmp_path, monkeypatch) -> None:
+    """Shipped ones by name, files and folders by path."""
+    (tmp_path / "rooms").mkdir()
+    (tmp_path / "rooms" / "mine.yaml").touch()
+    (tmp_path / "rooms" / "notes.txt").touch()
+    monkeypatch.chdir(tmp_path)
+    assert complete_scenario("room") == ["room", "room-moving", "rooms/"]
+    assert complete_scenario("rooms/") == ["rooms/mine.yaml"]
+    assert complete_scenario("nowhere/") == []
+    words = {"COMP_WORDS": "footfall run obstacle-1", "COMP_CWORD": "2"}
+    result = CliRunner().invoke(
+        app, env={"_FOOTFALL_COMPLETE": "complete_bash", **words}, prog_name="footfall"
+    )
+    assert result.stdout.split() == ["obstacle-15cm"]
 
 
 def test_list_has_a_line_a_scenario() -> None:
