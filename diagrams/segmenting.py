@@ -11,6 +11,7 @@ from time import perf_counter
 import numpy as np
 from matplotlib.figure import Figure
 
+from footfall.diagrams.figures.colors import PLANE_KINDS
 from footfall.models.robots.robot import Sole
 from footfall.models.robots.robot_description import default_sole
 from footfall.models.values.perceived import PlaneSegment, PlaneSegmentation
@@ -24,10 +25,6 @@ from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterPa
 
 DRAWN_POINTS = 60_000
 """More points would not change the picture, only slow it."""
-TREAD = "#d9480f"
-OTHER_TREAD = "#f08c00"
-PLANE = "#1971c2"
-GROUND = "#868e96"
 
 
 @dataclass(frozen=True, eq=False)
@@ -242,14 +239,16 @@ def _labelled(
         if any(plane in flight.treads for flight in (staircase, *others)):
             continue
         if staircase.floor is not None and plane == staircase.floor:
-            drawn.append((plane, GROUND, ""))
+            drawn.append((plane, PLANE_KINDS["ground"], ""))
             continue
         number += 1
-        drawn.append((plane, PLANE, "" if staircase.treads else str(number)))
+        drawn.append(
+            (plane, PLANE_KINDS["plane"], "" if staircase.treads else str(number))
+        )
     for index, tread in enumerate(staircase.treads):
-        drawn.append((tread, TREAD, str(index + 1)))
+        drawn.append((tread, PLANE_KINDS["tread"], str(index + 1)))
     return drawn + [
-        (tread, OTHER_TREAD, f"{flight}.{index}")
+        (tread, PLANE_KINDS["other tread"], f"{flight}.{index}")
         for flight, other in enumerate(others, start=2)
         for index, tread in enumerate(other.treads, start=1)
     ]

@@ -90,8 +90,8 @@ def run(
 ) -> None:
     """Simulate scenarios closed loop; write the run folders; print the summaries.
 
-    It takes about as long as what is simulated, on one core: stairs-exp1 less than a
-    minute, stairs-exp2 two, a quasi-static climb several. All scenarios are read before
+    It takes about as long as what is simulated, on one core: stairs-exp1 a minute,
+    stairs-exp2 two to three, a quasi-static climb more. All scenarios are read before
     the first is run.
 
     Ctrl-C or SIGTERM ends a run early; it is judged and kept, but not drawn, and what

@@ -7,12 +7,21 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from footfall.diagrams.figures.colors import (
+    BEFORE,
+    COM,
+    PHASES,
+    SIDES,
+    STAGES,
+    SUPPORT,
+    SUPPORT_EDGE,
+    THING_AS_SEEN,
+    WAIST,
+    WANTED,
+    ZMP,
+)
 from footfall.diagrams.figures.crossing_data import CrossingData, without_adaptation
 from footfall.diagrams.figures.figure_parts import (
-    COLORS,
-    COM,
-    SUPPORT,
-    ZMP,
     legend_outside,
     new_figure,
     set_title,
@@ -24,11 +33,7 @@ from footfall.models.values.vector import Vector
 from footfall.systems.planning.crossing.feet_adaptor import Repairs
 from footfall.systems.planning.crossing.report import BodyCurves
 
-PHASES = ("#e7f5ff", "#fff3bf", "#ebfbee")
-"""Shades of the phases 1 to 3."""
-WAIST, CWTG1, CWTG2 = "#2b8a3e", "#f08c00", "#1098ad"
-DESIRED, OBSTACLE = "#212529", "#495057"
-BEFORE = "#868e96"
+CWTG1, CWTG2 = STAGES
 
 
 def adaptation_figure(crossing: CrossingData) -> Figure:
@@ -46,7 +51,7 @@ def adaptation_figure(crossing: CrossingData) -> Figure:
         curves = bare.report.curves
         assert curves is not None
         start = bare.start_time
-        _curve(axes[0], plan.time, plan.zmp @ x, DESIRED, "--")
+        _curve(axes[0], plan.time, plan.zmp @ x, WANTED, "--")
         _curve(axes[0], start + curves.time, curves.zmp_cwtg2 @ x, BEFORE, ":")
         _curve(axes[0], plan.curves.time, plan.curves.zmp_cwtg2 @ x, CWTG2)
         _waist(axes[1:3], start, curves, x, BEFORE, ":")
@@ -54,7 +59,7 @@ def adaptation_figure(crossing: CrossingData) -> Figure:
         time: Vector = start + bare.period * np.arange(float(len(bare.foot_poses)))
         for phases in plan.phases:
             i = FEET.index(phases.second)
-            color = COLORS[phases.second]
+            color = SIDES[phases.second]
             for poses, when, shade, style in (
                 (bare.foot_poses[:, i], time, BEFORE, ":"),
                 (plan.feet[:, i], plan.time, color, "--"),
@@ -78,7 +83,7 @@ def adaptation_figure(crossing: CrossingData) -> Figure:
         axes[0],
         ("after CWTG2, before adaptation", BEFORE, ":"),
         ("after CWTG2, adapted", CWTG2, "-"),
-        ("desired", DESIRED, "--"),
+        ("desired", WANTED, "--"),
         ("measured", ZMP, "-"),
     )
     _keys(
@@ -90,8 +95,8 @@ def adaptation_figure(crossing: CrossingData) -> Figure:
     _keys(
         axes[3],
         (f"{foot} foot before", BEFORE, ":"),
-        (f"{foot} foot as planned", COLORS[foot], "--"),
-        (f"true {foot} foot", COLORS[foot], "-"),
+        (f"{foot} foot as planned", SIDES[foot], "--"),
+        (f"true {foot} foot", SIDES[foot], "-"),
     )
     labels = ("ZMP x [m]", "waist x [m]", "waist z [m]", "foot x [m]", "foot z [m]")
     _finish(axes, crossing, labels)
@@ -127,11 +132,14 @@ def ahead_figure(crossing: CrossingData) -> Figure:
                 (axes[4], poses[:, 2]),
                 (axes[5], np.degrees(poses[:, 4])),
             ):
-                _curve(ax, plan.time, values, COLORS[foot], "--")
+                _curve(ax, plan.time, values, SIDES[foot], "--")
         _curve(axes[3], plan.curves.time, plan.curves.waist[:, 2], WAIST, "--")
         for obstacle, phases in zip(plan.obstacles, plan.phases, strict=True):
             axes[4].plot(
-                [phases.begin, phases.end], [obstacle.height] * 2, color=OBSTACLE, lw=2
+                [phases.begin, phases.end],
+                [obstacle.height] * 2,
+                color=THING_AS_SEEN,
+                lw=2,
             )
     axes[3].plot(motion.time, motion.base[:, 2], color=WAIST, lw=1.2)
     for foot in FEET:
@@ -142,17 +150,17 @@ def ahead_figure(crossing: CrossingData) -> Figure:
             (axes[4], X_WF[:, 2, 3]),
             (axes[5], pitch),
         ):
-            _curve(ax, motion.time, values, COLORS[foot])
+            _curve(ax, motion.time, values, SIDES[foot])
     legend_outside(axes[0])
     legend_outside(axes[1])
     styles = [
-        (f"{how}{foot} foot", COLORS[foot], line)
+        (f"{how}{foot} foot", SIDES[foot], line)
         for foot in FEET
         for how, line in (("true ", "-"), ("planned ", "--"))
     ]
     _keys(axes[2], *styles)
     _keys(axes[3], ("true waist", WAIST, "-"), ("planned waist", WAIST, "--"))
-    _keys(axes[4], ("obstacle as seen", OBSTACLE, "-"))
+    _keys(axes[4], ("obstacle as seen", THING_AS_SEEN, "-"))
     labels = (
         "x [m]",
         "ZMP error x [m]",
@@ -173,13 +181,13 @@ def sideways_figure(crossing: CrossingData) -> Figure:
     _, y = crossing.axes
     motion = crossing.data.motion
     for plan in crossing.plans:
-        _curve(axes[0], plan.time, plan.zmp @ y, DESIRED, "--")
+        _curve(axes[0], plan.time, plan.zmp @ y, WANTED, "--")
         _curve(axes[0], plan.curves.time, plan.curves.waist[:, :2] @ y, WAIST, "--")
     axes[0].plot(motion.time, motion.base[:, :2] @ y, color=WAIST, lw=1.2)
     axes[0].plot(motion.time, motion.com[:, :2] @ y, color=COM, lw=1.2)
     _keys(
         axes[0],
-        ("ZMP desired", DESIRED, "--"),
+        ("ZMP desired", WANTED, "--"),
         ("planned waist", WAIST, "--"),
         ("true waist", WAIST, "-"),
         ("true CoM", COM, "-"),
@@ -217,7 +225,7 @@ def _zmp_panel(ax: Axes, crossing: CrossingData, direction: Vector) -> None:
         data.motion.time, low, high, color=SUPPORT, lw=0, label="support, true"
     )
     for edge in (low, high):
-        ax.plot(data.motion.time, edge, color="#adb5bd", lw=0.8)
+        ax.plot(data.motion.time, edge, color=SUPPORT_EDGE, lw=0.8)
     zmp = true_zmp(data)
     if zmp is not None:
         ax.plot(
@@ -231,7 +239,7 @@ def _zmp_panel(ax: Axes, crossing: CrossingData, direction: Vector) -> None:
         ax.plot(
             plan.time,
             plan.zmp @ direction,
-            color=DESIRED,
+            color=WANTED,
             lw=0.9,
             ls="--",
             label=_once(k, "ZMP desired"),
@@ -253,7 +261,7 @@ def _error_panel(ax: Axes, crossing: CrossingData, direction: Vector) -> None:
         for values, color, label in _stages(plan.curves, direction):
             error = values - np.interp(plan.curves.time, plan.time, wanted)
             ax.plot(plan.curves.time, error, color=color, lw=1.1, label=_once(k, label))
-    ax.axhline(0.0, color=DESIRED, lw=0.8, ls="--")
+    ax.axhline(0.0, color=WANTED, lw=0.8, ls="--")
 
 
 def _stages(

@@ -4,6 +4,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from footfall.diagrams.figures.colors import AXES
 from footfall.diagrams.figures.figure_parts import (
     legend_outside,
     new_figure,
@@ -13,9 +14,6 @@ from footfall.diagrams.figures.figure_parts import (
 from footfall.diagrams.judge.estimate_errors import EstimateErrors, estimate_errors
 from footfall.diagrams.run_data import RunData
 from footfall.models.values.vector import Vector
-
-AXES = ("#c92a2a", "#2f9e44", "#1971c2")
-"""Of x, y and z."""
 
 
 def has_estimate(data: RunData) -> bool:

@@ -5,19 +5,19 @@ from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
+from footfall.diagrams.figures.colors import FEASIBLE, INFEASIBLE
 from footfall.diagrams.figures.figure_parts import new_figure
 from footfall.models.values.obstacle import KeyConfiguration
 from footfall.models.values.vector import Vector
 from footfall.systems.planning.crossing.feasibility_maps import FeasibilityMaps
-
-INFEASIBLE, FEASIBLE = "#4263eb", "#f03e3e"
-"""The paper's colours: blue where some constraint is always violated, else red."""
 
 
 def feasibility_figure(
     maps: FeasibilityMaps, title: str, key: KeyConfiguration | None = None
 ) -> Figure:
     """Fig. 2's maps: three of a quasi-static phase 2, and the dynamic one beside them.
+
+    Blue is where some constraint is always violated, red where none is.
 
     Args:
         maps: what is drawn.

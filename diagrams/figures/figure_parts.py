@@ -1,26 +1,16 @@
-"""What the figures of a run share: colours, titles, legends, support and true ZMP."""
+"""What the figures of a run share: titles, legends, support and true ZMP."""
 
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from footfall.diagrams.figures.colors import ACTIVITIES
 from footfall.diagrams.judge.evidence_measures import zmp_of_feet
 from footfall.diagrams.judge.measures import LIFTED
 from footfall.diagrams.run_data import RunData
-from footfall.models.values.feet import FEET, Foot
+from footfall.models.values.feet import FEET
 from footfall.models.values.vector import Vector
-
-COLORS: dict[Foot, str] = {"left": "#1971c2", "right": "#d9480f"}
-COM, DCM, ZMP = "#212529", "#2f9e44", "#9c36b5"
-SUPPORT = "#dee2e6"
-ACTIVITY_COLORS = {
-    "scan": "#e7f5ff",
-    "plan": "#fff3bf",
-    "replan": "#fff3bf",
-    "look": "#e7f5ff",
-    "stop": "#ffe3e3",
-}
 
 
 def new_figure(width: float, height: float) -> Figure:
@@ -51,7 +41,7 @@ def shade_activities(ax: Axes, data: RunData) -> None:
     ends = [*(time for time, _ in entries[1:]), float(data.motion.time[-1])]
     for (start, status), end in zip(entries, ends, strict=True):
         activity = str(status.get("activity"))
-        color = ACTIVITY_COLORS.get(activity)
+        color = ACTIVITIES.get(activity)
         if color is not None:
             labelled = activity in ax.get_legend_handles_labels()[1]
             label = "_" if labelled else activity

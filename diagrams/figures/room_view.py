@@ -8,6 +8,14 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.patches import Polygon
 
+from footfall.diagrams.figures.colors import (
+    GOAL,
+    PATH,
+    SEEN_THING,
+    TREES,
+    TRUE_THING,
+    WALL,
+)
 from footfall.diagrams.judge.room_summary import true_box
 from footfall.diagrams.signal_names import OBSTACLE_SIGNAL
 from footfall.diagrams.signals import Run
@@ -16,10 +24,6 @@ from footfall.models.values.room import ObstacleBox
 from footfall.models.values.value import Json
 from footfall.models.values.vector import Vector
 
-TRUE_BOX = "#868e96"
-SEEN_BOX = "#c92a2a"
-TREES = {"start_tree": "#74b816", "goal_tree": "#f08c00"}
-PATH, GOAL = "#343a40", "#e03131"
 HEADING = 0.2
 """Length of the arrow that shows the heading at the goal, m."""
 
@@ -44,7 +48,7 @@ def draw_room(ax: Axes, run: Run) -> None:
     room = run.scenario.scene.room
     signs = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]) / 2.0
     walls = room.X_WR().multiply((signs * [room.length, room.width, 0.0]).T)
-    ax.add_patch(Polygon(walls[:2].T, fill=False, ec="#adb5bd", lw=2.0, label="wall"))
+    ax.add_patch(Polygon(walls[:2].T, fill=False, ec=WALL, lw=2.0, label="wall"))
     seen = [_seen_boxes(value) for value in _values(run, "executive.environment")]
     _draw_outlines(ax, seen[-1] if seen else [], "box seen")
     plans = [p for p in _values(run, "executive.path_plan") if p["points"]]
@@ -82,16 +86,16 @@ def _draw_scene(ax: Axes, scene: SceneParams) -> None:
     for index, box in enumerate(boxes):
         label = "_" if index else "box"
         ax.add_patch(
-            Polygon(box.footprint(), fc=TRUE_BOX, ec="none", alpha=0.8, label=label)
+            Polygon(box.footprint(), fc=TRUE_THING, ec="none", alpha=0.8, label=label)
         )
     for mover in scene.movers:
         before = true_box(mover, mover.x, mover.y).footprint()
-        ax.add_patch(Polygon(before, fc=TRUE_BOX, ec="none", alpha=0.3))
+        ax.add_patch(Polygon(before, fc=TRUE_THING, ec="none", alpha=0.3))
         ax.annotate(
             "",
             (mover.to_x, mover.to_y),
             (mover.x, mover.y),
-            arrowprops={"arrowstyle": "->", "color": "#495057", "ls": "--"},
+            arrowprops={"arrowstyle": "->", "color": PATH, "ls": "--"},
         )
 
 
@@ -123,7 +127,7 @@ def _draw_outlines(ax: Axes, boxes: Sequence[ObstacleBox], label: str) -> None:
             Polygon(
                 box.footprint(),
                 fill=False,
-                ec=SEEN_BOX,
+                ec=SEEN_THING,
                 lw=1.2,
                 label="_" if index else label,
             )

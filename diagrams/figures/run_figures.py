@@ -1,7 +1,8 @@
 """The figures of a run."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
+from itertools import cycle
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,19 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
+from footfall.diagrams.figures.colors import (
+    COM,
+    DCM,
+    LIMIT,
+    OTHER_JOINTS,
+    SIDE_JOINTS,
+    SIDES,
+    SUPPORT,
+    TREAD,
+    TREAD_EDGE,
+    UNIMPORTANT,
+    ZMP,
+)
 from footfall.diagrams.figures.crossing_data import CrossingData, read_crossings
 from footfall.diagrams.figures.crossing_figures import (
     adaptation_figure,
@@ -18,11 +32,6 @@ from footfall.diagrams.figures.crossing_figures import (
 )
 from footfall.diagrams.figures.estimate_figure import estimate_figure, has_estimate
 from footfall.diagrams.figures.figure_parts import (
-    COLORS,
-    COM,
-    DCM,
-    SUPPORT,
-    ZMP,
     legend_outside,
     new_figure,
     plot_column,
@@ -45,7 +54,6 @@ from footfall.models.values.vector import Vector
 
 FIGURES_FOLDER = "figures"
 DPI = 120
-TREAD = "#c2a06e"
 CROSSING_FIGURES: dict[str, Callable[[CrossingData], Figure]] = {
     "fig5_stick_diagram": stick_diagram,
     "fig7_adaptation": adaptation_figure,
@@ -136,9 +144,9 @@ def top_view(data: RunData) -> Figure:
         corners = data.motion.sole_corners[foot]
         for index in _standing_samples(data, foot):
             outline = corners[index][:, :2]
-            ax.add_patch(Polygon(outline, fc=COLORS[foot], ec=COLORS[foot], alpha=0.25))
-            ax.add_patch(Polygon(outline, fill=False, ec=COLORS[foot], lw=1.0))
-        ax.plot([], [], color=COLORS[foot], lw=6, alpha=0.4, label=f"{foot} sole")
+            ax.add_patch(Polygon(outline, fc=SIDES[foot], ec=SIDES[foot], alpha=0.25))
+            ax.add_patch(Polygon(outline, fill=False, ec=SIDES[foot], lw=1.0))
+        ax.plot([], [], color=SIDES[foot], lw=6, alpha=0.4, label=f"{foot} sole")
     zmp = true_zmp(data)
     if zmp is not None:
         ax.plot(*zmp.T, color=ZMP, lw=0.8, alpha=0.8, label="ZMP")
@@ -174,15 +182,15 @@ def side_view(data: RunData) -> Figure:
         profile += [(middle - half, height), (middle + half, height)]
     ground = np.array(profile)
     ax.fill_between(ground[:, 0], ground[:, 1], -0.05, color=TREAD, alpha=0.5, lw=0)
-    ax.plot(*ground.T, color="#7a5c2e", lw=1.2)
+    ax.plot(*ground.T, color=TREAD_EDGE, lw=1.2)
     for foot in FEET:
         sole = data.motion.sole_corners[foot]
         toe, heel = sole[:, [1, 2]].mean(axis=1), sole[:, [0, 3]].mean(axis=1)
-        ax.plot(*along(toe), color=COLORS[foot], lw=1.3, label=f"{foot} toe")
-        ax.plot(*along(heel), color=COLORS[foot], lw=0.9, ls=":", label=f"{foot} heel")
+        ax.plot(*along(toe), color=SIDES[foot], lw=1.3, label=f"{foot} toe")
+        ax.plot(*along(heel), color=SIDES[foot], lw=0.9, ls=":", label=f"{foot} heel")
         for index in _standing_samples(data, foot):
             ends = np.stack([heel[index], toe[index]])
-            ax.plot(*along(ends), color=COLORS[foot], lw=4, alpha=0.5)
+            ax.plot(*along(ends), color=SIDES[foot], lw=4, alpha=0.5)
     ax.plot(*along(data.motion.com), color=COM, lw=1.3, label="CoM")
     ax.set_aspect("equal", adjustable="datalim")
     ax.set_xlabel("along the stairs from the first riser [m]")
@@ -205,7 +213,7 @@ def feet_figure(data: RunData) -> Figure:
         height = float(tread.X_WR.translation()[2])
         heights.axhline(height, color=TREAD, lw=1.5, zorder=0)
     for foot in FEET:
-        color = COLORS[foot]
+        color = SIDES[foot]
         lowest = data.motion.sole_corners[foot][:, :, 2].min(axis=1)
         heights.plot(time, lowest, color=color, lw=1.3, label=f"{foot} sole, lowest")
         if data.wrenches is not None:
@@ -238,12 +246,32 @@ def joints_figure(data: RunData) -> Figure:
     torque = {joint: values / limits.torque[joint] for joint, values in series.items()}
     speed = {joint: v / limits.speed[joint] for joint, v in data.velocities.items()}
     shown = [*_extreme_joints(torque), *_extreme_joints(speed)]
-    colors = {joint: f"C{index}" for index, joint in enumerate(dict.fromkeys(shown))}
-    _shares(torques, data, torque_time, torque, colors, "torque / limit")
-    _shares(speeds, data, data.motion.time, speed, colors, "speed / limit")
+    legs = data.run.scenario.robot.model().leg_joints
+    styles = joint_styles(list(dict.fromkeys(shown)), legs)
+    _shares(torques, data, torque_time, torque, styles, "torque / limit")
+    _shares(speeds, data, data.motion.time, speed, styles, "speed / limit")
     speeds.set_xlabel("time [s]")
     set_title(figure, data, "joints")
     return figure
+
+
+def joint_styles(
+    joints: Sequence[str], legs: Mapping[Foot, tuple[str, ...]]
+) -> dict[str, tuple[str, str]]:
+    """Chooses a colour of its side and a line style for every joint, all different.
+
+    Args:
+        joints: in the order in which they are given colours.
+        legs: the joints of each leg; all others are of no side.
+    """
+    palettes = (*(SIDE_JOINTS[foot] for foot in FEET), OTHER_JOINTS)
+    places = [
+        [(color, line) for line in ("-", "--", ":", "-.") for color in palette]
+        for palette in palettes
+    ]
+    styles = [cycle(place) for place in places]
+    sides = {joint: i for i, foot in enumerate(FEET) for joint in legs[foot]}
+    return {joint: next(styles[sides.get(joint, len(FEET))]) for joint in joints}
 
 
 def _extreme_joints(shares: Mapping[str, Vector]) -> list[str]:
@@ -257,25 +285,26 @@ def _shares(
     data: RunData,
     time: Vector,
     shares: Mapping[str, Vector],
-    colors: Mapping[str, str],
+    styles: Mapping[str, tuple[str, str]],
     label: str,
 ) -> None:
     """Draws the joints nearest to their limits in colour, the others in grey."""
     shade_activities(ax, data)
     extreme = _extreme_joints(shares)
     for joint in shares.keys() - set(extreme):
-        ax.plot(time, shares[joint], color="#ced4da", lw=0.6, zorder=1)
+        ax.plot(time, shares[joint], color=UNIMPORTANT, lw=0.6, zorder=1)
     for joint in extreme:
         peak = float(np.abs(shares[joint]).max())
         ax.plot(
             time,
             shares[joint],
-            color=colors[joint],
+            color=styles[joint][0],
+            ls=styles[joint][1],
             lw=0.9,
             label=f"{joint} {peak:.2f}",
         )
     for limit in (-1.0, 1.0):
-        ax.axhline(limit, color="#c92a2a", lw=1.0, ls="--")
+        ax.axhline(limit, color=LIMIT, lw=1.0, ls="--")
     ax.set_ylim(-1.15, 1.15)
     ax.set_ylabel(label)
     ax.grid(alpha=0.3)
@@ -298,7 +327,7 @@ def _draw_rectangle(ax: Axes, tread: Tread) -> None:
     signs = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
     corners = np.array(tread.X_WR.multiply((signs * [*half, 0.0]).T)).T
     ax.add_patch(
-        Polygon(corners[:, :2], fc=TREAD, ec="#7a5c2e", alpha=0.35, lw=1.0, zorder=0)
+        Polygon(corners[:, :2], fc=TREAD, ec=TREAD_EDGE, alpha=0.35, lw=1.0, zorder=0)
     )
 
 

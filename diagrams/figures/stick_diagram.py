@@ -10,12 +10,20 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Polygon, Rectangle
 from pydrake.multibody.plant import MultibodyPlant
 
+from footfall.diagrams.figures.colors import (
+    FLOOR,
+    SEEN_THING,
+    SIDES,
+    TRUE_THING,
+    WAIST,
+    WANTED,
+)
 from footfall.diagrams.figures.crossing_data import (
     CrossingData,
     Phases,
     PlannedCrossing,
 )
-from footfall.diagrams.figures.figure_parts import COLORS, new_figure, set_title
+from footfall.diagrams.figures.figure_parts import new_figure, set_title
 from footfall.diagrams.run_data import RunData
 from footfall.models.robots.robot_alone import robot_alone
 from footfall.models.values.feet import Foot
@@ -26,12 +34,10 @@ from footfall.systems.planning.crossing.leg_clearance import Section, outline_ga
 from footfall.systems.planning.whole_body.leg_model import LegOutline
 from footfall.systems.planning.whole_body.whole_body_plan import planning_body
 
-TRUE, SEEN, MARGIN = "#868e96", "#212529", "#c92a2a"
 STICKS = 14
 """How often the leg is drawn in a phase."""
 LOOKED_AT = 151
 """Samples of a phase among which the nearest one is sought."""
-WAIST = "#2b8a3e"
 
 
 class LegSticks(NamedTuple):
@@ -77,7 +83,7 @@ def stick_diagram(crossing: CrossingData) -> Figure:
         ax.set_aspect("equal")
         ax.set_xlim(-half, half)
         ax.set_ylim(-0.03, 1.0)
-        ax.axhline(0.0, color="#495057", lw=1.0)
+        ax.axhline(0.0, color=FLOOR, lw=1.0)
         ax.grid(alpha=0.25)
     for ax in rows[-1]:
         ax.set_xlabel("across the obstacle from its middle [m]")
@@ -129,7 +135,7 @@ class _Plane:
                     (-half, 0.0),
                     2.0 * half,
                     self.true.height,
-                    fc=TRUE,
+                    fc=TRUE_THING,
                     ec="none",
                     label="obstacle",
                 )
@@ -137,8 +143,8 @@ class _Plane:
         seen = float((self.obstacle.center - self.origin) @ self.x_W)
         s_w, s_h = self.margins.s_w, self.margins.s_h
         for wide, high, color, style, label in (
-            (0.0, 0.0, SEEN, "-", "obstacle as seen"),
-            (s_w, s_h, MARGIN, "--", "with its margins $s_w$, $s_h$"),
+            (0.0, 0.0, SEEN_THING, "-", "obstacle as seen"),
+            (s_w, s_h, SEEN_THING, "--", "with its margins $s_w$, $s_h$"),
         ):
             half = self.obstacle.width / 2.0 + wide
             ax.add_patch(
@@ -223,20 +229,20 @@ def _draw_phase(
     chain = plane.to_plane(legs.chain)
     around = plane.to_plane(legs.outline)
     gaps = plane.gaps(around)
-    color = np.array(to_rgb(COLORS[foot]))
+    color = np.array(to_rgb(SIDES[foot]))
     for share in np.linspace(0.0, 1.0, STICKS):
         row = round(share * (len(chain) - 1))
         shade = tuple(1.0 - (0.25 + 0.75 * share) * (1.0 - color))
         ax.plot(*chain[row][[0, 1, 2]].T, color=shade, lw=1.3, marker=".", ms=4)
         ax.plot(*chain[row][[2, 3, 4, 2]].T, color=shade, lw=1.3)
     ax.plot(*chain[:, 0].T, color=WAIST, lw=1.6, label="hip")
-    ax.plot([], [], color=COLORS[foot], lw=1.3, marker=".", label="leg")
+    ax.plot([], [], color=SIDES[foot], lw=1.3, marker=".", label="leg")
     nearest = int(np.argmin(gaps))
     ax.add_patch(
         Polygon(
             around[nearest],
-            fc=COLORS[foot],
-            ec="#212529",
+            fc=SIDES[foot],
+            ec=WANTED,
             alpha=0.45,
             lw=1.5,
             zorder=3,
@@ -268,9 +274,9 @@ def _draw_key(
         chain = plane.to_plane(legs.chain[middle])
         around = plane.to_plane(legs.outline[middle])
         ax.plot(*plane.to_plane(legs.chain[:, 0]).T, color=WAIST, lw=1.6)
-        ax.add_patch(Polygon(around, fc=COLORS[foot], ec="none", alpha=0.25))
-        ax.plot(*chain[[0, 1, 2]].T, color=COLORS[foot], lw=1.8, marker=".", ms=6)
-        ax.plot(*chain[[2, 3, 4, 2]].T, color=COLORS[foot], lw=1.5)
+        ax.add_patch(Polygon(around, fc=SIDES[foot], ec="none", alpha=0.25))
+        ax.plot(*chain[[0, 1, 2]].T, color=SIDES[foot], lw=1.8, marker=".", ms=6)
+        ax.plot(*chain[[2, 3, 4, 2]].T, color=SIDES[foot], lw=1.5)
         if foot == phases.second:
             rear_ankle = float(chain[2, 0])
     waists = [(key.X_hds, key.Z_hds)]
@@ -304,7 +310,7 @@ def _draw_key(
             "left",
         ),
     ):
-        arrow = {"arrowstyle": "<->", "color": SEEN, "shrinkA": 0, "shrinkB": 0}
+        arrow = {"arrowstyle": "<->", "color": WANTED, "shrinkA": 0, "shrinkB": 0}
         ax.annotate("", end, begin, arrowprops=arrow, zorder=6)
         ax.text(
             *place,

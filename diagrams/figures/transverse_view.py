@@ -4,12 +4,17 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
+from footfall.diagrams.figures.colors import (
+    COM,
+    STATIC_SUPPORT,
+    TREAD,
+    TREAD_EDGE,
+)
 from footfall.diagrams.run_data import RunData
 from footfall.diagrams.signal_names import POLYGON_SIGNAL
 from footfall.models.scenes.tread import Tread
 from footfall.models.values.vector import Vector
 
-STAIR, AREA, COM = "#a0703c", "#1c7ed6", "#e03131"
 WIDTH, MARGINS = 10.0, 1.0
 """Of the picture, and what title, legend and labels take of its height, inches."""
 SAME = 5e-3
@@ -17,7 +22,7 @@ SAME = 5e-3
 
 
 def transverse_view(data: RunData) -> Figure:
-    """Consecutive static-stability polygons (blue), CoM (dotted red), stairs (brown).
+    """Consecutive static-stability polygons (blue), CoM (dotted), stairs (brown).
 
     The sagittal direction of the stairs points to the right.
 
@@ -33,12 +38,12 @@ def transverse_view(data: RunData) -> Figure:
     ax = figure.subplots()
     for tread in data.treads:
         ax.add_patch(
-            Polygon(_outline(tread), fc=STAIR, ec="#5c3d1e", alpha=0.45, lw=1.2)
+            Polygon(_outline(tread), fc=TREAD, ec=TREAD_EDGE, alpha=0.45, lw=1.2)
         )
     for k, area in enumerate(areas):
         if not any(_same(area, before) for before in areas[:k]):
-            ax.add_patch(Polygon(area, fc=AREA, ec="none", alpha=0.15))
-            ax.add_patch(Polygon(area, fill=False, ec="#1864ab", lw=0.9, alpha=0.8))
+            ax.add_patch(Polygon(area, fc=STATIC_SUPPORT, ec="none", alpha=0.2))
+            ax.add_patch(Polygon(area, fill=False, ec=STATIC_SUPPORT, lw=1.1))
     com = data.motion.com[:, :2]
     ax.plot(*com.T, color=COM, ls=":", lw=2.2, label="true CoM")
     for point, marker, label in ((com[0], "o", "start"), (com[-1], "s", "end")):
@@ -49,7 +54,10 @@ def transverse_view(data: RunData) -> Figure:
     ax.set_xlabel("x [m]")
     ax.set_ylabel("y [m]")
     ax.grid(alpha=0.3)
-    for color, label in ((AREA, "static-stability polygon"), (STAIR, "tread")):
+    for color, label in (
+        (STATIC_SUPPORT, "static-stability polygon"),
+        (TREAD, "tread"),
+    ):
         ax.plot([], [], color=color, lw=6, alpha=0.5, label=label)
     figure.legend(loc="outside lower center", ncols=5, fontsize=9)
     summary = data.run.summary

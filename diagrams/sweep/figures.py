@@ -10,19 +10,12 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from footfall.diagrams.figures.colors import BLACK, OUTCOMES
 from footfall.diagrams.signal_files import whole_file
 from footfall.diagrams.sweep.definition import Sweep
 from footfall.diagrams.sweep.table import NO_RESULT, groups_of, rate_of
 
 FIGURES_FOLDER = "figures"
-COLORS = {
-    "completed": "#0072b2",
-    "infeasible": "#999999",
-    "failed": "#e69f00",
-    "fell": "#d55e00",
-    "timed_out": "#cc79a7",
-}
-"""By outcome, told apart by the colour-blind; others are black."""
 MOST_PAIRS = 3
 """So many pairs of fields are drawn."""
 
@@ -72,8 +65,13 @@ def _success(ax: Axes, table: pd.DataFrame, name: str) -> None:
     for place, rate in enumerate(rates):
         if rate.runs:
             low, high = rate.interval()
-            ax.plot([place, place], [100.0 * low, 100.0 * high], color="#0072b2", lw=2)
-            ax.plot(place, 100.0 * rate.share, "o", color="#0072b2", ms=8)
+            ax.plot(
+                [place, place],
+                [100.0 * low, 100.0 * high],
+                color=OUTCOMES["completed"],
+                lw=2,
+            )
+            ax.plot(place, 100.0 * rate.share, "o", color=OUTCOMES["completed"], ms=8)
             ax.annotate(f"{rate.successes}/{rate.runs}", (place, 105.0), ha="center")
     ax.set_xticks(np.arange(len(labels)), labels)
     ax.set(xlabel=name, ylabel="success [%]", ylim=(-3.0, 114.0))
@@ -85,7 +83,7 @@ def _success(ax: Axes, table: pd.DataFrame, name: str) -> None:
 def _outcomes(ax: Axes, table: pd.DataFrame, x: str, y: str) -> None:
     """Draws every run where it lies, by its outcome."""
     for outcome, runs in table.groupby("outcome", sort=True):
-        color = COLORS.get(str(outcome), "black")
+        color = OUTCOMES.get(str(outcome), BLACK)
         face = "none" if outcome == NO_RESULT else color
         ax.scatter(
             runs[x], runs[y], s=45, facecolors=face, edgecolors=color, label=outcome

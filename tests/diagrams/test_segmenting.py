@@ -6,9 +6,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from matplotlib.colors import to_rgb
 from matplotlib.image import imread
 from pypcd4 import Encoding, PointCloud
 
+from footfall.diagrams.figures.colors import PLANE_KINDS
 from footfall.diagrams.segmenting import segment_file
 from footfall.models.values.value import to_json
 from footfall.models.values.vector import Vector
@@ -57,7 +59,8 @@ def test_json_and_picture_of_a_staircase(tmp_path: Path) -> None:
     assert picture.shape[0] > 400
     assert picture.shape[1] > 800
     # Treads are drawn: some pixels are of their colour.
-    orange = np.abs(picture[:, :, :3] - [0.851, 0.282, 0.059]).max(axis=2) < 0.02
+    color = np.array(to_rgb(PLANE_KINDS["tread"]))
+    orange = np.abs(picture[:, :, :3] - color).max(axis=2) < 0.02
     assert np.count_nonzero(orange) > 500
 
 
