@@ -93,7 +93,14 @@ COMMANDS: tuple[tuple[str, Callable[..., None], tuple[str, ...]], ...] = (
         report,
         ("footfall report runs/stairs-exp1-seed0", "footfall report sweeps/staircases"),
     ),
-    ("plot", plot, ("footfall plot runs/stairs-exp1-seed0",)),
+    (
+        "plot",
+        plot,
+        (
+            "footfall plot runs/stairs-exp1-seed0",
+            "footfall plot runs/stairs-exp1-seed0 --format pdf,svg",
+        ),
+    ),
     (
         "estimate",
         estimate,

@@ -12,15 +12,29 @@ from footfall.diagrams.cli.arguments import (
     load_named,
     quiet_drake,
 )
-from footfall.diagrams.cli.errors import bad_input_in_one_line
+from footfall.diagrams.cli.errors import OptionError, bad_input_in_one_line
 
 
-def plot(run_folder: RunArgument) -> None:
+def plot(
+    run_folder: RunArgument,
+    kinds: Annotated[
+        str,
+        typer.Option(
+            "--format",
+            metavar="KIND,...",
+            help="Of png, pdf and svg, one or several; vector graphics for papers.",
+        ),
+    ] = "png",
+) -> None:
     """Draw the figures of a run into its folder `figures`."""
     with bad_input_in_one_line():
-        from footfall.diagrams.figures.run_figures import plot_run
+        from footfall.diagrams.figures.run_figures import FORMATS, plot_run
 
-        for path in plot_run(run_folder):
+        formats = list(dict.fromkeys(kind.strip().lower() for kind in kinds.split(",")))
+        if not set(formats) <= set(FORMATS):
+            known = ", ".join(FORMATS)
+            raise OptionError(f"--format: must be some of {known}, got {kinds!r}")
+        for path in plot_run(run_folder, formats):
             typer.echo(path)
 
 

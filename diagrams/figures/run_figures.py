@@ -1,10 +1,10 @@
 """The figures of a run."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
-from itertools import cycle
 from pathlib import Path
 
+import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -14,14 +14,10 @@ from matplotlib.patches import Polygon
 from footfall.diagrams.figures.colors import (
     COM,
     DCM,
-    LIMIT,
-    OTHER_JOINTS,
-    SIDE_JOINTS,
     SIDES,
     SUPPORT,
     TREAD,
     TREAD_EDGE,
-    UNIMPORTANT,
     ZMP,
 )
 from footfall.diagrams.figures.crossing_data import CrossingData, read_crossings
@@ -41,6 +37,7 @@ from footfall.diagrams.figures.figure_parts import (
     support_edges,
     true_zmp,
 )
+from footfall.diagrams.figures.joints_figure import joints_figure
 from footfall.diagrams.figures.room_view import draw_room
 from footfall.diagrams.figures.stick_diagram import stick_diagram
 from footfall.diagrams.figures.transverse_view import transverse_view
@@ -53,6 +50,8 @@ from footfall.models.values.feet import FEET, Foot
 from footfall.models.values.vector import Vector
 
 FIGURES_FOLDER = "figures"
+FORMATS = ("png", "pdf", "svg")
+"""What figures may be drawn as; the latter two for papers."""
 DPI = 120
 CROSSING_FIGURES: dict[str, Callable[[CrossingData], Figure]] = {
     "fig5_stick_diagram": stick_diagram,
@@ -61,11 +60,9 @@ CROSSING_FIGURES: dict[str, Callable[[CrossingData], Figure]] = {
     "fig9_sideways": sideways_figure,
 }
 """By the obstacle paper's numbers."""
-SHOWN_JOINTS = 6
-"""How many joints have a colour of their own; the others are grey."""
 
 
-def plot_run(folder: Path) -> list[Path]:
+def plot_run(folder: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
     """Draws the figures of a run into its folder `figures`; gives their paths.
 
     `balance.png` CoM, DCM and ZMP over time against the support; `top_view.png` treads,
@@ -79,10 +76,18 @@ def plot_run(folder: Path) -> list[Path]:
     `fig5_stick_diagram.png`, `fig7_adaptation.png`, `fig8_ahead.png` and
     `fig9_sideways.png`.
 
+    Args:
+        folder: of the run.
+        formats: of `FORMATS`, each figure in each of them.
+
     Raises:
         RunError: the folder holds no run, or one without the plant's state.
         ScenarioError: its scenario cannot be read.
+        ValueError: there is no such format.
     """
+    if unknown := sorted(set(formats) - set(FORMATS)):
+        known = ", ".join(FORMATS)
+        raise ValueError(f"formats: must be of {known}, got {', '.join(unknown)}")
     data = read_run_data(folder)
     crossings = read_crossings(data)
     figures: dict[str, Callable[[], Figure]] = {
@@ -97,13 +102,28 @@ def plot_run(folder: Path) -> list[Path]:
     target.mkdir(exist_ok=True)
     paths = []
     for name, draw in figures.items():
-        path = target / f"{name}.png"
-        canvas = FigureCanvasAgg(draw())
-        canvas.figure.set_dpi(DPI)
-        with whole_file(path) as partial_path:
-            canvas.print_png(str(partial_path))  # type: ignore[no-untyped-call]
-        paths.append(path)
+        figure = draw()
+        for kind in formats:
+            path = target / f"{name}.{kind}"
+            with whole_file(path) as partial_path:
+                _save(figure, partial_path, kind)
+            paths.append(path)
     return paths
+
+
+def _save(figure: Figure, path: Path, kind: str) -> None:
+    """Writes a figure; vector graphics with text that can be searched and edited."""
+    if kind == "png":
+        canvas = FigureCanvasAgg(figure)
+        canvas.figure.set_dpi(DPI)
+        canvas.print_png(str(path))  # type: ignore[no-untyped-call]
+        return
+    # Without a date and with names that are not drawn, the same run is the same file.
+    date = {"pdf": "CreationDate", "svg": "Date"}[kind]
+    with mpl.rc_context(
+        {"pdf.fonttype": 42, "svg.fonttype": "none", "svg.hashsalt": "footfall"}
+    ):
+        figure.savefig(path, format=kind, metadata={date: None})
 
 
 def balance_figure(data: RunData) -> Figure:
@@ -229,86 +249,6 @@ def feet_figure(data: RunData) -> Figure:
         legend_outside(forces)
     set_title(figure, data, "feet")
     return figure
-
-
-def joints_figure(data: RunData) -> Figure:
-    """Torques and speeds of all joints as shares of their limits."""
-    figure = new_figure(11.0, 7.0)
-    torques, speeds = figure.subplots(2, 1, sharex=True)
-    logged = data.signal("plant.net_actuation")
-    limits = data.limits
-    series: dict[str, Vector] = {}
-    torque_time = np.zeros(0)
-    if logged is not None:
-        samples = logged.to_numpy(dtype=np.float64)
-        torque_time = samples[:, 0]
-        series = dict(zip(limits.torque, samples[:, 1:].T, strict=True))
-    torque = {joint: values / limits.torque[joint] for joint, values in series.items()}
-    speed = {joint: v / limits.speed[joint] for joint, v in data.velocities.items()}
-    shown = [*_extreme_joints(torque), *_extreme_joints(speed)]
-    legs = data.run.scenario.robot.model().leg_joints
-    styles = joint_styles(list(dict.fromkeys(shown)), legs)
-    _shares(torques, data, torque_time, torque, styles, "torque / limit")
-    _shares(speeds, data, data.motion.time, speed, styles, "speed / limit")
-    speeds.set_xlabel("time [s]")
-    set_title(figure, data, "joints")
-    return figure
-
-
-def joint_styles(
-    joints: Sequence[str], legs: Mapping[Foot, tuple[str, ...]]
-) -> dict[str, tuple[str, str]]:
-    """Chooses a colour of its side and a line style for every joint, all different.
-
-    Args:
-        joints: in the order in which they are given colours.
-        legs: the joints of each leg; all others are of no side.
-    """
-    palettes = (*(SIDE_JOINTS[foot] for foot in FEET), OTHER_JOINTS)
-    places = [
-        [(color, line) for line in ("-", "--", ":", "-.") for color in palette]
-        for palette in palettes
-    ]
-    styles = [cycle(place) for place in places]
-    sides = {joint: i for i, foot in enumerate(FEET) for joint in legs[foot]}
-    return {joint: next(styles[sides.get(joint, len(FEET))]) for joint in joints}
-
-
-def _extreme_joints(shares: Mapping[str, Vector]) -> list[str]:
-    """Finds the joints that came nearest to their limits, the nearest first."""
-    order = sorted(shares, key=lambda joint: -float(np.abs(shares[joint]).max()))
-    return order[:SHOWN_JOINTS]
-
-
-def _shares(
-    ax: Axes,
-    data: RunData,
-    time: Vector,
-    shares: Mapping[str, Vector],
-    styles: Mapping[str, tuple[str, str]],
-    label: str,
-) -> None:
-    """Draws the joints nearest to their limits in colour, the others in grey."""
-    shade_activities(ax, data)
-    extreme = _extreme_joints(shares)
-    for joint in shares.keys() - set(extreme):
-        ax.plot(time, shares[joint], color=UNIMPORTANT, lw=0.6, zorder=1)
-    for joint in extreme:
-        peak = float(np.abs(shares[joint]).max())
-        ax.plot(
-            time,
-            shares[joint],
-            color=styles[joint][0],
-            ls=styles[joint][1],
-            lw=0.9,
-            label=f"{joint} {peak:.2f}",
-        )
-    for limit in (-1.0, 1.0):
-        ax.axhline(limit, color=LIMIT, lw=1.0, ls="--")
-    ax.set_ylim(-1.15, 1.15)
-    ax.set_ylabel(label)
-    ax.grid(alpha=0.3)
-    legend_outside(ax)
 
 
 def _standing_samples(data: RunData, foot: Foot) -> list[int]:

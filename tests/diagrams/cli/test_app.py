@@ -162,6 +162,7 @@ def test_the_reason_stays_one_line_as_it_is(stand, tmp_path) -> None:
         (("diagram", "stairs-exp9"), ("stairs-exp9",)),
         (("plot", "nowhere"), ("nowhere", "no such folder")),
         (("replay", "."), ("not a run folder", "scenario.yaml")),
+        (("plot", ".", "--format", "png,tiff"), ("--format", "'png,tiff'")),
         (("report", "."), ("neither a run's folder nor a sweep's",)),
         (("segment", "nowhere.pcd"), ("nowhere.pcd",)),
         (("segment", "x.pcd", "--gravity", "0,0"), ("--gravity", "'0,0'")),
@@ -283,6 +284,8 @@ def test_pictures_of_a_run_are_made_again(stand, tmp_path) -> None:
     plotted = footfall("plot", tmp_path / "out")
     assert plotted.exit_code == 0
     assert str(tmp_path / "out" / "figures" / "joints.png") in plotted.stdout
+    plotted = footfall("plot", tmp_path / "out", "--format", "svg")
+    assert str(tmp_path / "out" / "figures" / "joints.svg") in plotted.stdout
     replayed = footfall("replay", tmp_path / "out")
     assert replayed.stdout.strip() == str(tmp_path / "out" / "replay.html")
     (tmp_path / "out" / "signals" / "plant.state.parquet").unlink()

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from footfall.diagrams.figures import colors
-from footfall.diagrams.figures.run_figures import joint_styles
+from footfall.diagrams.figures.joints_figure import joint_styles
 
 LINEAR_TO_LMS = np.array(
     [[17.8824, 43.5161, 4.11935], [3.45565, 27.1554, 3.86714], [0.0300, 0.1843, 1.4671]]

@@ -44,6 +44,24 @@ def test_figures_are_drawn(run_folder) -> None:
     assert {path.name for path in (run_folder / "figures").iterdir()} == names
 
 
+def test_figures_for_papers_are_vector_graphics(run_folder) -> None:
+    """Text stays text, and the same run gives the same file."""
+    paths = plot_run(run_folder, ("pdf", "svg"))
+    assert {path.suffix for path in paths} == {".pdf", ".svg"}
+    assert len(paths) == 2 * len({path.stem for path in paths})
+    svg = run_folder / "figures" / "joints.svg"
+    assert "torque / limit" in svg.read_text(encoding="utf-8")
+    pdf = run_folder / "figures" / "joints.pdf"
+    assert pdf.read_bytes().startswith(b"%PDF")
+    assert b"/FontFile2" in pdf.read_bytes()
+    assert not list((run_folder / "figures").glob("*.png"))
+    before = {path: path.read_bytes() for path in paths}
+    plot_run(run_folder, ("pdf", "svg"))
+    assert [path for path in paths if path.read_bytes() != before[path]] == []
+    with pytest.raises(ValueError, match="must be of png, pdf, svg, got tiff"):
+        plot_run(run_folder, ("svg", "tiff"))
+
+
 def test_a_crossing_adds_the_obstacle_papers_figures(crossed_folder) -> None:
     """By the numbers they have there."""
     names = {path.name for path in plot_run(crossed_folder)}
