@@ -45,7 +45,9 @@ SIGNAL_FRAMES: Mapping[str, str] = MappingProxyType(
         "base_estimator.deviation": "W",
         "base_estimator.biases": "the inertial unit's own",
         "base_estimator.faults": "none",
-        "believed_state.com": _BELIEVED,
+        "com_observer.com": _BELIEVED,
+        "com_observer.offset": "heading midway between the feet's",
+        "motion_player.footholds": _BELIEVED,
         "believed_state.com_velocity": _BELIEVED,
     }
 )

@@ -67,6 +67,7 @@ ACTIVITIES: Mapping[str, str] = MappingProxyType(
         "look": "#e7f5ff",
         "plan": "#fff3bf",
         "replan": "#fff3bf",
+        "rest": "#e9ecef",
         "stop": "#e9ecef",
     }
 )

@@ -5,6 +5,7 @@ that is off by as much makes every step land elsewhere. Of a robot that stands s
 CoM is over the ZMP, which the force sensors tell within a millimetre.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -100,7 +101,7 @@ class ComObserver(LeafSystem):
         super().__init__()
         params.validate()
         self._params = params
-        self._error: Vector = np.array(model_error, dtype=np.float64)
+        self._error = model_error
         self._memory = declare_state(self, np.zeros(4))
         self._com = self.DeclareVectorInputPort("com", 3)
         self._velocity = self.DeclareVectorInputPort("com_velocity", 3)
@@ -124,19 +125,21 @@ class ComObserver(LeafSystem):
             params.period, 0.0, timed(self, self._update)
         )
 
-    def _modelled(self, context: Context) -> tuple[Vector, Vector]:
-        """The model's CoM with its error, (3,), and the heading's rotation, (2, 2)."""
+    def _turn(self, context: Context) -> tuple[float, float]:
+        """Cosine and sine of the heading midway between the feet's."""
         poses = eval_vector(self._poses, context)
-        yaw = poses[5] + 0.5 * np.angle(np.exp(1j * (poses[11] - poses[5])))
-        c, s = np.cos(yaw), np.sin(yaw)
-        turn: Vector = np.array([[c, -s], [s, c]])
-        com = eval_vector(self._com, context).copy()
-        com[:2] += turn @ self._error
-        return com, turn
+        left, right = float(poses[5]), float(poses[11])
+        yaw = left + 0.5 * math.remainder(right - left, math.tau)
+        return math.cos(yaw), math.sin(yaw)
 
     def _calc_com(self, context: Context, output: BasicVector) -> None:
-        com, turn = self._modelled(context)
-        com[:2] += turn @ read_state(context, self._memory)[:2]
+        memory = read_state(context, self._memory)
+        ahead = self._error[0] + float(memory[0])
+        to_left = self._error[1] + float(memory[1])
+        c, s = self._turn(context)
+        com = eval_vector(self._com, context).copy()
+        com[0] += c * ahead - s * to_left
+        com[1] += s * ahead + c * to_left
         set_vector(output, com)
 
     def _calc_offset(self, context: Context, output: BasicVector) -> None:
@@ -144,21 +147,22 @@ class ComObserver(LeafSystem):
 
     def _update(self, context: Context, discrete: DiscreteValues) -> None:
         params = self._params
-        memory = read_state(context, self._memory)
-        com, turn = self._modelled(context)
-        stood = 0.0
-        if np.hypot(*eval_vector(self._velocity, context)[:2]) < params.rest_speed:
-            stood = memory[3] + params.period
-        offset, learnt = memory[:2], memory[2]
+        ahead, to_left, learnt, stood = read_state(context, self._memory).tolist()
+        speed = math.hypot(*eval_vector(self._velocity, context)[:2].tolist())
+        stood = stood + params.period if speed < params.rest_speed else 0.0
         if stood > params.rest_time:
             zmp = self._zmp(context)
             if np.isfinite(zmp[0]):
                 learnt += params.period
                 share = params.period / min(params.trust + learnt, params.time)
-                off = turn.T @ (zmp[:2] - com[:2])
-                offset = offset + share * (off - offset)
-                offset = np.clip(offset, -params.largest, params.largest)
-        set_state(discrete, self._memory, np.array([*offset, learnt, stood]))
+                c, s = self._turn(context)
+                x, y = (zmp - eval_vector(self._com, context))[:2].tolist()
+                off = c * x + s * y - self._error[0], c * y - s * x - self._error[1]
+                ahead, to_left = (
+                    min(max(old + share * (new - old), -params.largest), params.largest)
+                    for old, new in zip((ahead, to_left), off, strict=True)
+                )
+        set_state(discrete, self._memory, np.array([ahead, to_left, learnt, stood]))
 
     def _zmp(self, context: Context) -> Vector:
         """Measured, (3,), m; nan where the feet do not bear."""

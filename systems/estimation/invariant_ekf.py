@@ -177,7 +177,10 @@ def hold_feet(
     if not held:
         return estimate
     HP, S = _innovation_covariance(estimate.covariance, held, model)
-    slipped = [far > model.slip_gate for far in _distances(innovations, S)]
+    slipped = [False] * len(held)
+    # z S^-1 z <= z N^-1 z, as S = H P H^T + N: most ticks need no solution.
+    if any(float(z @ (z / model.foot)) > model.slip_gate for z in innovations):
+        slipped = [far > model.slip_gate for far in _distances(innovations, S)]
     if any(slipped):
         slips = list(estimate.slips)
         for i, slip in zip(held, slipped, strict=True):

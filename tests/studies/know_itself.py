@@ -29,6 +29,8 @@ HALL = """<environment>
 """
 LENGTH = 20.0
 """Of the walk through the hall, m."""
+FIRST_REST = 5.0
+"""Standing before it, s, as one does who is to walk far by his gyroscope."""
 COLUMNS = (
     "case",
     "seed",
@@ -55,6 +57,7 @@ def cases(hall: Path) -> dict[str, tuple[str, list[str]]]:
         f"task.goal=[{LENGTH}, 0.0, 0.0]",
         f"task.environment={hall}",
         "simulation.max_time=400.0",
+        f"parameters.path_executive.first_rest={FIRST_REST}",
     ]
     stands = {"stand for 60 s": ("stand", ["task.stand_time=60.0"])}
     walks = {f"walk {LENGTH:g} m without looking": ("room", walk)}

@@ -23,7 +23,7 @@ from footfall.systems.planning.footsteps.foothold import sole_corners
 from footfall.systems.ports import eval_abstract, eval_vector
 from footfall.systems.thinking import ThinkingParams, Thought, ready_time
 
-Activity: TypeAlias = Literal["look", "plan", "move", "replan", "stop", "stand"]
+Activity: TypeAlias = Literal["look", "plan", "rest", "move", "replan", "stop", "stand"]
 
 
 @dataclass(kw_only=True)
@@ -161,7 +161,9 @@ def _look_and_plan(
     looking = dataclasses.replace(before, looked=time)
     known = dataclasses.replace(looking, environment=environment)
     planned = _plan(known, ready, sources, params)
-    planning = _turn_to(known, "plan", seen).until(planned.since, planned)
+    if planned.since > ready:
+        planned = _turn_to(known, "rest", ready).until(planned.since, planned)
+    planning = _turn_to(known, "plan", seen).until(ready, planned)
     return looking.until(seen, planning).at(time)
 
 

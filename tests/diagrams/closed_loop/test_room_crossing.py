@@ -65,7 +65,7 @@ def test_it_looks_walks_and_looks_whether_it_is_there(crossing) -> None:
     """One plan is enough in a room in which nothing moves."""
     states = [value for _, value in crossing.values("executive.status")]
     activities = [value["activity"] for value in states]
-    assert activities == ["look", "plan", "move", "look", "plan", "stand"]
+    assert activities == ["look", "plan", "rest", "move", "look", "plan", "stand"]
     assert states[-1]["state"] == "finished"
 
 
@@ -123,8 +123,8 @@ def test_it_is_drawn_from_above(crossing) -> None:
 def test_a_box_on_its_way_makes_it_stop_in_balance(stopped) -> None:
     """It stands, has touched nothing, and says why it cannot go there any more."""
     states = [value for _, value in stopped.values("executive.status")]
-    assert [value["activity"] for value in states][:6] == [
-        *("look", "plan", "move", "replan", "stop", "look"),
+    assert [value["activity"] for value in states][:7] == [
+        *("look", "plan", "rest", "move", "replan", "stop", "look"),
     ]
     summary = stopped.summary
     assert summary["outcome"] == "infeasible"

@@ -128,7 +128,7 @@ def test_it_stands_at_the_start_to_know_its_gyroscope() -> None:
     patient = replace(PARAMS, first_rest=2.0)
     seen = {"environment": Environment(), "footsteps": PLANNED, "plan": WALK}
     waiting = decided(PathDecision(STAND), 0.5, params=patient, **seen)  # type: ignore
-    assert waiting.activity == "plan"
+    assert waiting.activity == "rest"
     assert waiting.motion_plan is STAND
     going = waiting.at(2.0)
     assert (going.activity, going.motion_plan.start_time) == ("move", 2.0)
