@@ -8,7 +8,8 @@ import typer
 
 from footfall.diagrams.cli.check_robot import check_robot_file
 from footfall.diagrams.cli.estimate import estimate
-from footfall.diagrams.cli.pictures import diagram, plot, render, replay
+from footfall.diagrams.cli.pictures import diagram, plot, replay
+from footfall.diagrams.cli.render import render
 from footfall.diagrams.cli.report import report
 from footfall.diagrams.cli.run import run
 from footfall.diagrams.cli.scenarios import fields, list_shipped
@@ -117,6 +118,7 @@ COMMANDS: tuple[tuple[str, Callable[..., None], tuple[str, ...]], ...] = (
         (
             "footfall render runs/stairs-exp1-seed0",
             "footfall render runs/stairs-exp1-seed0 --frames 6 --from 8 --to 11",
+            "footfall render runs/stairs-exp1-seed0 --video climb.mp4",
         ),
     ),
     (

@@ -47,40 +47,6 @@ def replay(run_folder: RunArgument) -> None:
         typer.echo(replay_run(run_folder))
 
 
-def render(
-    run_folder: RunArgument,
-    frames: Annotated[
-        int, typer.Option(metavar="N", min=1, help="How many pictures.")
-    ] = 12,
-    start: Annotated[
-        float | None,
-        typer.Option(
-            "--from",
-            metavar="S",
-            help="When the first is taken; by default when the robot first moves, or a "
-            "step before it crosses something.",
-            show_default=False,
-        ),
-    ] = None,
-    end: Annotated[
-        float | None,
-        typer.Option(
-            "--to",
-            metavar="S",
-            help="When the last is taken; by default when the robot last moves, or a "
-            "step after it has crossed.",
-            show_default=False,
-        ),
-    ] = None,
-) -> None:
-    """Render a run as a film strip, headless, into its folder `figures`."""
-    with bad_input_in_one_line():
-        from footfall.diagrams.figures.film_strip import render_run
-
-        quiet_drake()
-        typer.echo(render_run(run_folder, frames, start, end))
-
-
 def diagram(
     scenario: ScenarioArgument,
     out: Annotated[

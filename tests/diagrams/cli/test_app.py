@@ -163,6 +163,7 @@ def test_the_reason_stays_one_line_as_it_is(stand, tmp_path) -> None:
         (("plot", "nowhere"), ("nowhere", "no such folder")),
         (("replay", "."), ("not a run folder", "scenario.yaml")),
         (("plot", ".", "--format", "png,tiff"), ("--format", "'png,tiff'")),
+        (("render", ".", "--video", "v.avi"), ("--video v.avi", "end with .mp4")),
         (("report", "."), ("neither a run's folder nor a sweep's",)),
         (("segment", "nowhere.pcd"), ("nowhere.pcd",)),
         (("segment", "x.pcd", "--gravity", "0,0"), ("--gravity", "'0,0'")),
@@ -292,6 +293,16 @@ def test_pictures_of_a_run_are_made_again(stand, tmp_path) -> None:
     reported = footfall("report", tmp_path / "out")
     assert (reported.exit_code, reported.stdout) == (0, f"{tmp_path}/out/report.html\n")
     assert reported.stderr.splitlines()[0].startswith("footfall: no film strip: ")
+
+
+def test_a_video_needs_a_package_of_its_own(tmp_path, monkeypatch) -> None:
+    """Which is named where it is missing."""
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
+    monkeypatch.delitem(sys.modules, "footfall.diagrams.figures.video", raising=False)
+    result = footfall("render", tmp_path, "--video", "v.mp4")
+    assert result.exit_code == 2
+    (line,) = result.stderr.splitlines()
+    assert line.endswith("needs imageio-ffmpeg: pip install 'footfall[video]'")
 
 
 def test_diagram_is_written(stand, tmp_path) -> None:

@@ -8,14 +8,13 @@ import pytest
 from matplotlib.image import imread
 
 from footfall.diagrams.figures.crossing_data import planned_crossings
-from footfall.diagrams.figures.film_strip import (
+from footfall.diagrams.figures.film_strip import render_run, spread
+from footfall.diagrams.figures.rendering import (
     CROSSING_VIEW,
     HEIGHT,
     WIDTH,
     look_at,
-    render_run,
     render_states,
-    spread,
     turned,
 )
 from footfall.diagrams.scenario import save_scenario
@@ -70,7 +69,7 @@ def test_a_crossing_is_shown_with_a_step_before_and_after(
     def pictures(run, states, view, movers):
         assert movers is None
         taken.append((states, view))
-        return render_states(run, states[2:3], view) * len(states)
+        return list(render_states(run, states[2:3], view)) * len(states)
 
     monkeypatch.setattr("footfall.diagrams.figures.film_strip.render_states", pictures)
     render_run(crossed_folder, frames=5)
