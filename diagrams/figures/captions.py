@@ -90,6 +90,9 @@ CAPTIONS = {
     ),
 }
 """By the picture's name without its ending."""
+OVER_TIME = ("balance", "feet", "joints", "estimate")
+"""Pictures with an axis of time in which standing is folded."""
+FOLDED = "Where the robot stands still for long, time is folded (hatched)."
 SUCCESS_CAPTION = Caption(
     "Success by {}",
     "Success rate of each group with Wilson's 95 % interval, and successes over "

@@ -11,6 +11,7 @@ from footfall.diagrams.figures.figure_parts import (
     set_title,
     shade_activities,
 )
+from footfall.diagrams.figures.time_axis import fold_time
 from footfall.diagrams.judge.estimate_errors import EstimateErrors, estimate_errors
 from footfall.diagrams.run_data import RunData
 from footfall.models.values.vector import Vector
@@ -41,8 +42,9 @@ def estimate_figure(data: RunData) -> Figure:
             deviation = scale * errors.deviation[:, first : first + 3]
         _draw(ax, errors, scale * values, deviation)
         ax.set_ylabel(f"error of {label}")
+    fold_time(rows, data)
+    for ax in rows:
         legend_outside(ax)
-    rows[-1].set_xlabel("time [s]")
     set_title(figure, data, "estimate less truth of the pelvis")
     return figure
 

@@ -19,6 +19,7 @@ from footfall.diagrams.figures.figure_parts import (
     set_title,
     shade_activities,
 )
+from footfall.diagrams.figures.time_axis import fold_time
 from footfall.diagrams.run_data import RunData
 from footfall.models.values.feet import FEET, Foot
 from footfall.models.values.vector import Vector
@@ -46,7 +47,9 @@ def joints_figure(data: RunData) -> Figure:
     styles = joint_styles(list(dict.fromkeys(shown)), legs)
     _shares(torques, data, torque_time, torque, styles, "torque / limit")
     _shares(speeds, data, data.motion.time, speed, styles, "speed / limit")
-    speeds.set_xlabel("time [s]")
+    fold_time((torques, speeds), data)
+    for ax in (torques, speeds):
+        legend_outside(ax)
     set_title(figure, data, "joints")
     return figure
 
@@ -104,4 +107,3 @@ def _shares(
     ax.set_ylim(-1.15, 1.15)
     ax.set_ylabel(label)
     ax.grid(alpha=0.3)
-    legend_outside(ax)

@@ -40,6 +40,7 @@ from footfall.diagrams.figures.figure_parts import (
 from footfall.diagrams.figures.joints_figure import joints_figure
 from footfall.diagrams.figures.room_view import draw_room
 from footfall.diagrams.figures.stick_diagram import stick_diagram
+from footfall.diagrams.figures.time_axis import fold_time
 from footfall.diagrams.figures.transverse_view import transverse_view
 from footfall.diagrams.judge.measures import contact_intervals
 from footfall.diagrams.run_data import RunData, read_run_data
@@ -147,8 +148,8 @@ def balance_figure(data: RunData) -> Figure:
         plot_column(ax, reference_signal(data, "com"), axis, COM, "CoM wanted")
         ax.set_ylabel(f"{letter} [m]")
         ax.grid(alpha=0.3)
+    fold_time(axes, data)
     legend_outside(axes[0])
-    axes[1].set_xlabel("time [s]")
     set_title(figure, data, "balance")
     return figure
 
@@ -241,7 +242,7 @@ def feet_figure(data: RunData) -> Figure:
             forces.plot(time, share, color=color, lw=1.0, label=f"{foot} foot")
     heights.set_ylabel("height [m]")
     forces.set_ylabel("normal force [body weights]")
-    forces.set_xlabel("time [s]")
+    fold_time((heights, forces), data)
     legend_outside(heights)
     if data.wrenches is None:
         forces.text(0.5, 0.5, "not logged", transform=forces.transAxes, ha="center")

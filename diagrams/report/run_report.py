@@ -4,7 +4,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from footfall.diagrams.figures.captions import CAPTIONS
+from footfall.diagrams.figures.captions import (
+    CAPTIONS,
+    FOLDED,
+    OVER_TIME,
+    Caption,
+)
 from footfall.diagrams.figures.film_strip import render_run
 from footfall.diagrams.figures.illustrations import DIAGRAM_FILE
 from footfall.diagrams.figures.replay import replay_run
@@ -157,4 +162,8 @@ def figure_rows(summary: Mapping[str, Json]) -> list[FigureRow]:
 
 
 def _picture(path: Path) -> Picture:
-    return Picture(path.stem, data_uri(path), CAPTIONS[path.stem])
+    name = path.stem
+    caption = CAPTIONS[name]
+    if name in OVER_TIME:
+        caption = Caption(caption.title, f"{caption.text} {FOLDED}")
+    return Picture(name, data_uri(path), caption)
