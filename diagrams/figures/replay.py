@@ -8,10 +8,13 @@ from pydrake.multibody.plant import AddMultibodyPlantSceneGraph
 from pydrake.systems.framework import DiagramBuilder
 
 from footfall.diagrams.figures.live_view import meshcat_at
-from footfall.diagrams.run_data import mover_positions
+from footfall.diagrams.figures.replay_overlays import (
+    Overlays,
+    add_overlays,
+    read_overlays,
+)
+from footfall.diagrams.run_data import mover_positions, read_run_data
 from footfall.diagrams.signal_files import whole_file
-from footfall.diagrams.signal_names import STATE_SIGNAL
-from footfall.diagrams.signals import RunError, load_run
 from footfall.models.robots.robot import RobotModel
 from footfall.models.robots.robot_loader import add_robot
 from footfall.models.scenes.mover import add_movers
@@ -42,6 +45,7 @@ def replay_html(
     time: Vector,
     state: Vector,
     movers: Vector | None = None,
+    overlays: Overlays | None = None,
 ) -> str:
     """Writes a self-contained page that plays the robot's motion in its scene.
 
@@ -54,6 +58,7 @@ def replay_html(
         state: positions, then velocities of the robot, (n, nq + nv).
         movers: x and y of each box that moves, in turn, (n, 2 k), m; None leaves them
             where they stand at first.
+        overlays: what is shown beside the robot, of the same samples.
 
     Raises:
         ValueError: the state has another size than the robot's, or the movers than
@@ -89,14 +94,19 @@ def replay_html(
     plant_context = plant.GetMyMutableContextFromRoot(context)
     recording = visualizer.StartRecording(set_transforms_while_recording=False)
     recording.set_loop_mode(type(recording).LoopMode.kLoopOnce)
-    for moment in np.arange(time[0], time[-1], 1.0 / rate):
-        sample = int(np.searchsorted(time, moment))
-        context.SetTime(float(moment))
+    moments = [
+        (float(moment), int(np.searchsorted(time, moment)))
+        for moment in np.arange(time[0], time[-1], 1.0 / rate)
+    ]
+    for moment, sample in moments:
+        context.SetTime(moment)
         plant.SetPositions(plant_context, instance, positions[sample])
         if movers is not None:
             plant.SetPositions(plant_context, moving, movers[sample])
         diagram.ForcedPublish(context)
     visualizer.StopRecording()
+    if overlays is not None:
+        add_overlays(meshcat, recording, overlays, robot.sole, moments)
     visualizer.PublishRecording()
     _place_camera(meshcat, positions)
     return with_open_controls(meshcat.StaticHtml())
@@ -105,17 +115,23 @@ def replay_html(
 def replay_run(folder: Path) -> Path:
     """Writes the page of a run into its folder, from what was logged; gives its path.
 
+    Beside the robot it shows what the robot saw, the planned footholds, CoM, ZMP and
+    the forces on the feet; see `replay_overlays`.
+
     Raises:
         RunError: the folder holds no run, or one without the plant's state.
         ScenarioError: its scenario cannot be read.
     """
-    run = load_run(folder)
-    if STATE_SIGNAL not in run.signals:
-        raise RunError(f"{folder}: the run did not log {STATE_SIGNAL}")
-    samples = run.signals[STATE_SIGNAL].to_numpy(dtype=np.float64)
-    robot, scene = run.scenario.robot.model(), run.scenario.scene
-    movers = mover_positions(run, samples[:, 0])
-    html = replay_html(robot, scene, samples[:, 0], samples[:, 1:], movers)
+    data = read_run_data(folder)
+    run, time = data.run, data.motion.time
+    html = replay_html(
+        run.scenario.robot.model(),
+        run.scenario.scene,
+        time,
+        data.state,
+        mover_positions(run, time),
+        read_overlays(data),
+    )
     path = folder / REPLAY_FILE
     with whole_file(path) as partial:
         partial.write_text(html, encoding="utf-8")

@@ -42,14 +42,17 @@ def draw_room(ax: Axes, run: Run) -> None:
     """
     _draw_scene(ax, run.scenario.scene)
     if OBSTACLE_SIGNAL in run.value_names:
-        _draw_outlines(ax, _seen_obstacles(run), "obstacle seen")
+        obstacles = [
+            b for v in _values(run, OBSTACLE_SIGNAL) for b in seen_obstacles(v)
+        ]
+        _draw_outlines(ax, obstacles, "obstacle seen")
     if "executive.path_plan" not in run.value_names:
         return
     room = run.scenario.scene.room
     signs = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]) / 2.0
     walls = room.X_WR().multiply((signs * [room.length, room.width, 0.0]).T)
     ax.add_patch(Polygon(walls[:2].T, fill=False, ec=WALL, lw=2.0, label="wall"))
-    seen = [_seen_boxes(value) for value in _values(run, "executive.environment")]
+    seen = [seen_boxes(value) for value in _values(run, "executive.environment")]
     _draw_outlines(ax, seen[-1] if seen else [], "box seen")
     plans = [p for p in _values(run, "executive.path_plan") if p["points"]]
     for name, color in TREES.items():
@@ -99,7 +102,8 @@ def _draw_scene(ax: Axes, scene: SceneParams) -> None:
         )
 
 
-def _seen_boxes(environment: Mapping[str, Json]) -> list[ObstacleBox]:
+def seen_boxes(environment: Mapping[str, Json]) -> list[ObstacleBox]:
+    """Reads the boxes that a look saw, of the logged value of an environment."""
     boxes = []
     for item in cast(Sequence[Mapping[str, Json]], environment["boxes"]):
         center: Vector = np.array(item["center"], dtype=np.float64)
@@ -109,15 +113,14 @@ def _seen_boxes(environment: Mapping[str, Json]) -> list[ObstacleBox]:
     return boxes
 
 
-def _seen_obstacles(run: Run) -> list[ObstacleBox]:
-    """Reads what every sweep saw to lie in the way."""
+def seen_obstacles(seen: Mapping[str, Json]) -> list[ObstacleBox]:
+    """Reads what a sweep saw to lie in the way, of the logged value of a map."""
     boxes = []
-    for seen in _values(run, OBSTACLE_SIGNAL):
-        for item in cast(Sequence[Mapping[str, Any]], seen["obstacles"]):
-            middle = item["height"] / 2.0
-            center: Vector = np.array([*item["center"], middle], dtype=np.float64)
-            size: Vector = np.array([item["width"], item["length"], item["height"]])
-            boxes.append(ObstacleBox("obstacle", center, float(item["yaw"]), size))
+    for item in cast(Sequence[Mapping[str, Any]], seen["obstacles"]):
+        middle = item["height"] / 2.0
+        center: Vector = np.array([*item["center"], middle], dtype=np.float64)
+        size: Vector = np.array([item["width"], item["length"], item["height"]])
+        boxes.append(ObstacleBox("obstacle", center, float(item["yaw"]), size))
     return boxes
 
 

@@ -11,6 +11,7 @@ from footfall.diagrams.figures.replay import (
     replay_html,
     replay_run,
 )
+from footfall.diagrams.figures.replay_overlays import read_overlays
 from footfall.diagrams.figures.run_figures import plot_run, top_view
 from footfall.diagrams.run_data import read_run_data
 from footfall.diagrams.signals import RunError
@@ -73,6 +74,16 @@ def test_a_crossing_adds_the_obstacle_papers_figures(crossed_folder) -> None:
     } < names
     for name in names:
         assert np.ptp(imread(crossed_folder / "figures" / name)[:, :, :3]) > 0.5
+
+
+def test_the_replay_shows_what_was_seen_and_planned(crossed_folder) -> None:
+    """The obstacle's top, as high as it is, before the first step that is planned."""
+    overlays = read_overlays(read_run_data(crossed_folder))
+    seen = next(one for one in overlays.seen if len(one.edges))
+    assert any(abs(edge[:, 2] - 0.15).max() < 0.01 for edge in seen.edges)
+    assert len(overlays.footholds) > 5
+    assert {step.foot for step in overlays.footholds} == {"left", "right"}
+    assert seen.time <= overlays.footholds[0].time
 
 
 def test_the_top_view_shows_the_obstacle_as_it_was_seen(crossed_folder) -> None:
