@@ -36,8 +36,10 @@ CAPTIONS = {
         "Balance",
         "CoM, ZMP and divergent component of motion (DCM) along x and y; dashed is "
         "what the controller wanted, the grey band is what the soles on the ground "
-        "span. The ZMP must stay inside the band, and at its edge the sole is about "
-        "to tip; where DCM and dashed DCM part, balance is being lost.",
+        "span. The ZMP must stay inside the band, and at its edge the sole is about to "
+        "tip. Below, the CoM's height, and how far the DCM was from the wanted one: "
+        "where that grows and does not come back, balance is lost. Its peak is "
+        "`max_dcm_error_m`.",
     ),
     "static_stability": Caption(
         "Static stability",

@@ -42,6 +42,7 @@ from footfall.diagrams.figures.room_view import draw_room
 from footfall.diagrams.figures.stick_diagram import stick_diagram
 from footfall.diagrams.figures.time_axis import fold_time
 from footfall.diagrams.figures.transverse_view import transverse_view
+from footfall.diagrams.judge.evidence_measures import dcm_distances
 from footfall.diagrams.judge.measures import contact_intervals
 from footfall.diagrams.run_data import RunData, read_run_data
 from footfall.diagrams.signal_files import whole_file
@@ -66,12 +67,13 @@ CROSSING_FIGURES: dict[str, Callable[[CrossingData], Figure]] = {
 def plot_run(folder: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
     """Draws the figures of a run into its folder `figures`; gives their paths.
 
-    `balance.png` CoM, DCM and ZMP over time against the support; `top_view.png` treads,
-    boxes, path, footsteps and CoM from above; `side_view.png` how the feet passed the
-    steps; `static_stability.png` where the CoM might rest, as in the stair paper's
-    Fig. 7; `feet.png` heights of and forces on the feet; `joints.png` torques and
-    speeds as shares of their limits; `estimate.png` errors of what the robot believed
-    of itself. What was not logged is left out of them.
+    `balance.png` CoM, DCM and ZMP over time against the support, the CoM's height and
+    the DCM's error; `top_view.png` treads, boxes, path, footsteps and CoM from above;
+    `side_view.png` how the feet passed the steps; `static_stability.png` where the CoM
+    might rest, as in the stair paper's Fig. 7; `feet.png` heights of and forces on the
+    feet; `joints.png` torques and speeds as shares of their limits; `estimate.png`
+    errors of what the robot believed of itself. What was not logged is left out of
+    them.
 
     Where obstacles were crossed, the obstacle paper's figures are added:
     `fig5_stick_diagram.png`, `fig7_adaptation.png`, `fig8_ahead.png` and
@@ -128,13 +130,13 @@ def _save(figure: Figure, path: Path, kind: str) -> None:
 
 
 def balance_figure(data: RunData) -> Figure:
-    """CoM, DCM and ZMP along x and y over time, with the edges of the support."""
-    figure = new_figure(11.0, 7.0)
-    axes = figure.subplots(2, 1, sharex=True)
+    """CoM, DCM and ZMP over time with the support, CoM's height and DCM's error."""
+    figure = new_figure(11.0, 10.0)
+    axes = figure.subplots(4, 1, sharex=True, height_ratios=(1.4, 1.4, 1.0, 1.0))
     time, motion = data.motion.time, data.motion
     measured_dcm = data.signal("balance_state.dcm")
     zmp = true_zmp(data)
-    for axis, (ax, letter) in enumerate(zip(axes, "xy", strict=True)):
+    for axis, (ax, letter) in enumerate(zip(axes[:2], "xy", strict=True)):
         shade_activities(ax, data)
         low, high = support_edges(data, np.eye(2)[axis])
         ax.fill_between(time, low, high, color=SUPPORT, lw=0, label="support")
@@ -147,6 +149,21 @@ def balance_figure(data: RunData) -> Figure:
         ax.plot(time, motion.com[:, axis], color=COM, lw=1.4, label="CoM")
         plot_column(ax, reference_signal(data, "com"), axis, COM, "CoM wanted")
         ax.set_ylabel(f"{letter} [m]")
+        ax.grid(alpha=0.3)
+    height, error = axes[2:]
+    reference = reference_signal(data, "com")
+    height.plot(time, motion.com[:, 2], color=COM, lw=1.4, label="CoM")
+    plot_column(height, reference, 2, COM, "CoM wanted")
+    height.set_ylabel("CoM z [m]")
+    # A reference without velocity has no DCM.
+    if reference is not None and reference.shape[1] >= 1 + 6:
+        distances = 1e3 * dcm_distances(motion, reference)
+        error.plot(time, distances, color=DCM, lw=1.0, label="DCM from wanted")
+    else:
+        error.text(0.5, 0.5, "not logged", transform=error.transAxes, ha="center")
+    error.set_ylabel("DCM error [mm]")
+    for ax in (height, error):
+        shade_activities(ax, data)
         ax.grid(alpha=0.3)
     fold_time(axes, data)
     legend_outside(axes[0])

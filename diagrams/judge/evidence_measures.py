@@ -271,15 +271,25 @@ def dcm_error(evidence: Evidence) -> float | None:
     frame = _reference(evidence, "com")
     if frame is None or frame.shape[1] < 1 + 6:
         return None
-    motion = evidence.motion
-    wanted = signal_at(motion.time, frame)
-    reference = replace(
+    return float(dcm_distances(evidence.motion, frame).max())
+
+
+def dcm_distances(motion: TrueMotion, reference: pd.DataFrame) -> Vector:
+    """Computes the horizontal distance of the true DCM to the reference's, (n,), m.
+
+    Args:
+        motion: of the robot, n samples.
+        reference: time, s, then place, m, velocity, m/s, and acceleration of the CoM
+            that was wanted, as `reference.com` logs it.
+    """
+    wanted = signal_at(motion.time, reference)
+    moved = replace(
         motion,
         com=np.column_stack([wanted[:, :2], motion.com[:, 2]]),
         com_velocity=wanted[:, 3:6],
     )
-    difference = true_dcm(motion) - true_dcm(reference)
-    return float(np.linalg.norm(difference, axis=1).max())
+    distances: Vector = np.linalg.norm(true_dcm(motion) - true_dcm(moved), axis=1)
+    return distances
 
 
 def climb_time(

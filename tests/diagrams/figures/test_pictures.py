@@ -12,7 +12,7 @@ from footfall.diagrams.figures.replay import (
     replay_run,
 )
 from footfall.diagrams.figures.replay_overlays import read_overlays
-from footfall.diagrams.figures.run_figures import plot_run, top_view
+from footfall.diagrams.figures.run_figures import balance_figure, plot_run, top_view
 from footfall.diagrams.run_data import read_run_data
 from footfall.diagrams.signals import RunError
 from footfall.diagrams.simulation import run_task
@@ -74,6 +74,18 @@ def test_a_crossing_adds_the_obstacle_papers_figures(crossed_folder) -> None:
     } < names
     for name in names:
         assert np.ptp(imread(crossed_folder / "figures" / name)[:, :, :3]) > 0.5
+
+
+def test_the_balance_figure_ends_at_the_summarys_error(crossed_folder) -> None:
+    """Its lowest panel peaks at `max_dcm_error_m`; the one above is the true height."""
+    data = read_run_data(crossed_folder)
+    axes = balance_figure(data).axes
+    (error,) = axes[3].get_lines()
+    peak = float(np.max(error.get_ydata()))
+    assert peak == pytest.approx(1e3 * data.run.summary["max_dcm_error_m"])
+    true, wanted = axes[2].get_lines()
+    np.testing.assert_array_equal(true.get_ydata(), data.motion.com[:, 2])
+    assert np.abs(np.mean(wanted.get_ydata()) - np.mean(true.get_ydata())) < 0.01
 
 
 def test_the_replay_shows_what_was_seen_and_planned(crossed_folder) -> None:
