@@ -26,6 +26,8 @@ from footfall.models.values.vector import Vector
 
 STRIP_FILE = "figures/film_strip.png"
 COLUMNS = 6
+FALL_SHOWN = 4.5
+"""Of a run that fell so much of its end is shown, s: a fall is watched for 3 s."""
 
 
 def render_run(
@@ -38,8 +40,9 @@ def render_run(
         frames: how many pictures.
         start: when the first is taken, s; None for when the robot first moves or,
             where it crosses obstacles, a step before phase 1.
-        end: when the last is taken, s; None for when it last moves or a step after
-            phase 3. Without both what lies between two motions is left out.
+        end: when the last is taken, s; None for when it last moves, a step after
+            phase 3, or when it lies. Without both what lies between two motions is
+            left out, but for a fall.
 
     Raises:
         RunError: the folder holds no run, one without the plant's state, or nothing
@@ -88,8 +91,11 @@ def shown_part(folder: Path, start: float | None, end: float | None) -> ShownPar
     samples = run.signals[STATE_SIGNAL].to_numpy(dtype=np.float64)
     time, state = samples[:, 0], samples[:, 1:]
     crossings = _crossings(run)
+    fell = run.summary["outcome"] == "fell"
     stretches = _moving(run, time)
-    if crossings:
+    if fell:
+        stretches = with_fall(stretches, float(time[-1]))
+    elif crossings:
         both = np.array([plan.stretch() for plan in crossings])
         stretches = [(float(both.min()), float(both.max()))]
     if start is not None or end is not None:
@@ -137,6 +143,17 @@ def spread(stretches: Sequence[tuple[float, float]], count: int) -> Vector:
     index = np.clip(np.searchsorted(passed, wanted) - 1, 0, len(begins) - 1)
     moments: Vector = begins[index] + wanted - passed[index]
     return moments
+
+
+def with_fall(
+    stretches: Sequence[tuple[float, float]], end: float
+) -> list[tuple[float, float]]:
+    """Adds the end of a run that fell, standing or moving, to what is shown, s."""
+    begin = max(end - FALL_SHOWN, 0.0)
+    before = [(start, min(stop, begin)) for start, stop in stretches if start < begin]
+    if before and before[-1][1] == begin:
+        begin = before.pop()[0]
+    return [*before, (begin, end)]
 
 
 def _moving(run: Run, time: Vector) -> list[tuple[float, float]]:

@@ -8,7 +8,12 @@ import pytest
 from matplotlib.image import imread
 
 from footfall.diagrams.figures.crossing_data import planned_crossings
-from footfall.diagrams.figures.film_strip import render_run, spread
+from footfall.diagrams.figures.film_strip import (
+    FALL_SHOWN,
+    render_run,
+    spread,
+    with_fall,
+)
 from footfall.diagrams.figures.rendering import (
     CROSSING_VIEW,
     HEIGHT,
@@ -91,6 +96,15 @@ def test_pictures_are_spread_over_the_motions() -> None:
     moments = spread([(1.0, 3.0), (10.0, 12.0)], 5)
     assert moments.tolist() == [1.0, 2.0, 3.0, 11.0, 12.0]
     assert spread([(4.0, 6.0)], 1).tolist() == [4.0]
+
+
+def test_a_fall_is_shown_whenever_it_happens() -> None:
+    """In a scan long after the last motion, in the midst of one, and at once."""
+    assert with_fall([(1.0, 3.0), (10.0, 12.0)], 20.0) == [
+        *((1.0, 3.0), (10.0, 12.0), (20.0 - FALL_SHOWN, 20.0))
+    ]
+    assert with_fall([(1.0, 3.0), (10.0, 20.0)], 20.0) == [(1.0, 3.0), (10.0, 20.0)]
+    assert with_fall([(1.0, 3.0)], 3.0) == [(0.0, 3.0)]
 
 
 def test_boxes_that_move_are_where_they_were(standing, tmp_path) -> None:
