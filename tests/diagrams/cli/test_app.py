@@ -116,16 +116,17 @@ def test_run_writes_the_run_folder(stand, tmp_path) -> None:
 
 def test_a_scenario_written_by_a_run_runs_again(stand, tmp_path) -> None:
     """Under its own name, with every field resolved."""
-    footfall("run", stand, "--set", "simulation.max_time=0.3", "--out", tmp_path / "a")
+    quick = ("--no-draw", "--out")
+    footfall("run", stand, "--set", "simulation.max_time=0.3", *quick, "a")
     again = tmp_path / "a" / "scenario.yaml"
-    assert footfall("run", again, "--out", tmp_path / "b").exit_code in (0, 1)
+    assert footfall("run", again, *quick, "b").exit_code in (0, 1)
     assert load_run(tmp_path / "b").scenario == load_run(tmp_path / "a").scenario
 
 
 def test_default_folders_are_numbered(stand, tmp_path) -> None:
     """No run is ever written over another."""
     for _ in range(2):
-        assert footfall("run", stand).exit_code == 0
+        assert footfall("run", stand, "--no-draw").exit_code == 0
     names = sorted(path.name for path in (tmp_path / "runs").iterdir())
     assert names == ["standing-seed0", "standing-seed0-2"]
 
@@ -256,9 +257,10 @@ def test_meshcat_listens_where_it_is_told(stand, tmp_path, monkeypatch) -> None:
         seen.append(host)
 
     monkeypatch.setattr("footfall.diagrams.figures.live_view.meshcat_at", meshcat_at)
-    footfall("run", stand, "--out", tmp_path / "a", "--meshcat")
-    footfall("run", stand, "--out", tmp_path / "b", "--meshcat", "--meshcat-host", "*")
-    footfall("run", stand, "--out", tmp_path / "c")
+    quick = ("--no-draw", "--out")
+    footfall("run", stand, *quick, "a", "--meshcat")
+    footfall("run", stand, *quick, "b", "--meshcat", "--meshcat-host", "*")
+    footfall("run", stand, *quick, "c")
     assert seen == [LOCAL_HOST, "*"]
     assert LOCAL_HOST == DEFAULT_HOST
     result = footfall("run", stand, "--meshcat", "--meshcat-host", "192.0.2.1")
