@@ -25,7 +25,7 @@ from footfall.models.values.vector import Vector
 REPLAY_FILE = "replay.html"
 FRAME_RATE = 32.0
 """Frames a second of the recording, at most."""
-MAX_FRAMES = 2500
+MAX_FRAMES = 2300
 """A longer run is recorded at fewer frames a second, so that the page stays below
 15 MB."""
 
