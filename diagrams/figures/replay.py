@@ -25,11 +25,13 @@ from footfall.models.values.vector import Vector
 REPLAY_FILE = "replay.html"
 FRAME_RATE = 32.0
 """Frames a second of the recording, at most."""
-MAX_FRAMES = 2300
+MAX_FRAMES = 2000
 """A longer run is recorded at fewer frames a second, so that the page stays below
 15 MB."""
 
 
+LATER = 1e-7
+"""How long past the beginning of a frame it is taken, s."""
 OPEN_CONTROLS = """<script>
     viewer.gui.open();
     viewer.gui.width = 360;
@@ -95,8 +97,8 @@ def replay_html(
     recording = visualizer.StartRecording(set_transforms_while_recording=False)
     recording.set_loop_mode(type(recording).LoopMode.kLoopOnce)
     moments = [
-        (float(moment), int(np.searchsorted(time, moment)))
-        for moment in np.arange(time[0], time[-1], 1.0 / rate)
+        (float(moment), min(int(np.searchsorted(time, moment)), len(time) - 1))
+        for moment in frame_times(float(time[0]), float(time[-1]), rate)
     ]
     for moment, sample in moments:
         context.SetTime(moment)
@@ -110,6 +112,21 @@ def replay_html(
     visualizer.PublishRecording()
     _place_camera(meshcat, positions)
     return with_open_controls(meshcat.StaticHtml())
+
+
+def frame_times(begin: float, end: float, rate: float) -> Vector:
+    """Times of all frames, s, each just past its beginning.
+
+    Drake rounds a time down to a frame: right at the beginning it may be the one before,
+    and one is left out.
+
+    Args:
+        begin: of the recording, s.
+        end: of it, s.
+        rate: frames a second.
+    """
+    times: Vector = np.arange(begin, end, 1.0 / rate) + LATER
+    return times
 
 
 def replay_run(folder: Path) -> Path:

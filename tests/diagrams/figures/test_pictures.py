@@ -3,11 +3,14 @@
 import numpy as np
 import pytest
 from matplotlib.image import imread
+from pydrake.geometry import MeshcatAnimation
 
 from footfall.diagrams.figures.illustrations import illustrate
 from footfall.diagrams.figures.replay import (
+    FRAME_RATE,
     MAX_FRAMES,
     OPEN_CONTROLS,
+    frame_times,
     replay_html,
     replay_run,
 )
@@ -86,6 +89,16 @@ def test_the_balance_figure_ends_at_the_summarys_error(crossed_folder) -> None:
     true, wanted = axes[2].get_lines()
     np.testing.assert_array_equal(true.get_ydata(), data.motion.com[:, 2])
     assert np.abs(np.mean(wanted.get_ydata()) - np.mean(true.get_ydata())) < 0.01
+
+
+@pytest.mark.parametrize("length", [0.1, 35.8, 90.31, 300.0])
+def test_no_frame_of_a_replay_is_left_out(length) -> None:
+    """Drake's own count of the frames is ours."""
+    rate = min(FRAME_RATE, MAX_FRAMES / length)
+    recording = MeshcatAnimation(rate)
+    frames = [recording.frame(time) for time in frame_times(0.0, length, rate)]
+    assert frames == list(range(len(frames)))
+    assert len(frames) == pytest.approx(rate * length, abs=1.01)
 
 
 def test_the_replay_shows_what_was_seen_and_planned(crossed_folder) -> None:
