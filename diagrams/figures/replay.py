@@ -117,8 +117,8 @@ def replay_html(
 def frame_times(begin: float, end: float, rate: float) -> Vector:
     """Times of all frames, s, each just past its beginning.
 
-    Drake rounds a time down to a frame: right at the beginning it may be the one before,
-    and one is left out.
+    Drake rounds a time down to a frame: right at its beginning that may be the one
+    before, and one is left out.
 
     Args:
         begin: of the recording, s.
