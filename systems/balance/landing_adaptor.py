@@ -7,6 +7,7 @@ reference is shifted until the foot itself follows the plan.
 """
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from pydrake.systems.framework import Context, DiscreteValues, LeafSystem
@@ -53,8 +54,7 @@ class LandingParams(Parameters):
     """Most that its reference is shifted for that, m and rad."""
 
 
-@dataclass(frozen=True)
-class FootState:
+class FootState(NamedTuple):
     """What is remembered of one foot."""
 
     offset: Vector
@@ -176,50 +176,22 @@ def _level(pose: Vector) -> Vector:
 
 def standing() -> FootState:
     """Makes the state of a foot that stands where its plan says."""
-    nothing: Vector = np.zeros(6)
-    return FootState(
-        offset=nothing,
-        offset_rate=nothing,
-        sag=nothing,
-        held=nothing,
-        slack=nothing,
-        slack_rate=nothing,
-        landed=True,
-        lifted_for=0.0,
-        searching=0.0,
-    )
+    return _unpack(_STANDING)
 
 
-_SIZE = 39
+_STANDING: Vector = np.array([0.0] * 36 + [1.0, 0.0, 0.0])
+"""`standing` as numbers: 6 poses and rates, landed, lifted_for, searching."""
+_SIZE = len(_STANDING)
 
 
 def _pack(state: FootState) -> Vector:
-    return np.concatenate(
-        [
-            state.offset,
-            state.offset_rate,
-            state.sag,
-            state.held,
-            state.slack,
-            state.slack_rate,
-            [float(state.landed), state.lifted_for, state.searching],
-        ]
-    )
+    return np.concatenate([*state[:6], state[6:]])
 
 
 def _unpack(values: Vector) -> FootState:
-    offset, offset_rate, sag, held, slack, slack_rate = values[:36].reshape(6, 6)
     landed, lifted_for, searching = values[36:].tolist()
-    return FootState(
-        offset=offset,
-        offset_rate=offset_rate,
-        sag=sag,
-        held=held,
-        slack=slack,
-        slack_rate=slack_rate,
-        landed=landed > 0.5,
-        lifted_for=lifted_for,
-        searching=searching,
+    return FootState._make(
+        [*values[:36].reshape(6, 6), landed > 0.5, lifted_for, searching]
     )
 
 
@@ -267,8 +239,7 @@ class LandingAdaptor(LeafSystem):
         super().__init__()
         params.validate()
         self._params = params
-        stand = _pack(standing())
-        memory: Vector = np.concatenate([stand, stand, [0.0]])
+        memory: Vector = np.concatenate([_STANDING, _STANDING, [0.0]])
         self._memory = int(self.DeclareDiscreteState(memory))
         still: Vector = np.concatenate([foot_poses, np.zeros(12)])
         self._tracked = declare_state_output(self, "foot_references", still)
