@@ -7,7 +7,8 @@ from pydrake.math import RotationMatrix
 from pydrake.multibody.plant import MultibodyPlant
 
 from footfall.diagrams.closed_loop.parts import Parts
-from footfall.diagrams.scenario import ControllerParams, Scenario
+from footfall.diagrams.controller_params import ControllerParams
+from footfall.diagrams.scenario import Scenario
 from footfall.models.robots.robot import RobotModel
 from footfall.models.robots.robot_alone import robot_alone
 from footfall.models.values.planned import MotionPlan

@@ -6,9 +6,10 @@ from typing import Any
 import pytest
 
 from footfall.diagrams.closed_loop.tasks import build_task
+from footfall.diagrams.controller_params import ControllerParams
 from footfall.diagrams.fields.acting import ACTS, acts_in_task, told, unmet
 from footfall.diagrams.fields.field_tree import walk_fields
-from footfall.diagrams.scenario import ControllerParams, Scenario, load_scenario
+from footfall.diagrams.scenario import Scenario, load_scenario
 
 PREFIX = "parameters."
 
