@@ -305,7 +305,7 @@ def _follows(lower: Patch, upper: Patch, limits: StairLimits) -> bool:
     if is_landing(lower, limits) or is_landing(upper, limits):
         return _adjoins(lower, upper, limits)
     if is_turned(lower, upper, limits):
-        return _winds(lower, upper)
+        return _winds(lower, upper) or is_top(lower, upper, limits)
     axes = (lower.axes[:2, 0], upper.axes[:2, 0])
     wider = max(lower.extent[1], upper.extent[1])
     if min(lower.extent[1], upper.extent[1]) < 0.6 * wider:
@@ -325,6 +325,17 @@ def _follows(lower: Patch, upper: Patch, limits: StairLimits) -> bool:
     run = float(high.min() - low.min())
     behind = float(high.min() - low.max()) >= -LANDING_GAP / 2.0
     return bool(behind and SHORTEST_RUN <= run <= LONGEST_RUN)
+
+
+def is_top(lower: Patch, upper: Patch, limits: StairLimits) -> bool:
+    """Tells whether a patch is what a tread leads up to, though its axis is another.
+
+    Of a floor above, as of a landing, either side may be the shorter one.
+    """
+    deeper = upper.extent[0] > (1.0 + limits.depth_tolerance) * lower.extent[0]
+    return bool(
+        deeper and is_turned(lower, upper, limits) and _adjoins(lower, upper, limits)
+    )
 
 
 def split_at_turns(

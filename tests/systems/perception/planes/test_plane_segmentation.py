@@ -171,6 +171,27 @@ def test_landing_goes_on_with_the_flight(scan: Scan, stair_scene: Any) -> None:
     assert min(abs(height - 0.51) for height in heights) < 0.005
 
 
+@pytest.mark.parametrize("width", [0.5, 0.8, 1.2])
+@pytest.mark.parametrize("depth", [0.32, 0.4, 0.5, 0.62, 0.8, 1.5, 3.0])
+def test_a_floor_above_ends_the_flight(
+    scan: Scan, stair_scene: Any, depth: float, width: float
+) -> None:
+    """However deep it is beside the treads, and which of its sides is the longer."""
+    scene = stair_scene(steps=2, rise=0.17, run=0.27, width=width, landing=depth)
+    eye = scene.sensor()
+    cloud = scan(scene, eye, tilt=(20.0, 80.0))
+    found, _ = segment_planes(cloud, GRAVITY, PARAMS, SOLE, eye)
+    *treads, top = found.staircase.treads
+    staircase = replace(found.staircase, treads=tuple(treads))
+    check_treads(replace(found, staircase=staircase), scene, [0, 1])
+    corners = top.corners() @ scene.rotation()
+    assert np.abs(corners[:, 2] - 0.51).max() < 0.005
+    front = scene.tread_corners(1)[2] @ scene.rotation()
+    assert np.abs(corners[[0, 3], 0] - front[0]).max() < 0.01
+    assert 0.3 < top.size[0] < depth + 0.01
+    assert top.size[1] == pytest.approx(width, abs=0.02)
+
+
 def test_a_flight_goes_on_behind_a_landing(scan: Scan, stair_scene: Any) -> None:
     """Which may be wider than it is deep; a table beside the flight is none of it."""
     lower = stair_scene(steps=2, rise=0.15, run=0.30, width=1.0, landing=0.9)
