@@ -13,7 +13,8 @@ import pytest
 
 from footfall.diagrams.sweep.definition import Sweep, SweepError
 from footfall.diagrams.sweep.figures import draw_sweep
-from footfall.diagrams.sweep.runner import command_of, run_sweep
+from footfall.diagrams.sweep.pools import LocalPool
+from footfall.diagrams.sweep.runner import JobEnd, command_of, run_sweep
 from footfall.diagrams.sweep.sampling import jobs_of
 from footfall.diagrams.sweep.sweep_folder import load_sweep
 from footfall.diagrams.sweep.table import (
@@ -37,10 +38,15 @@ SWEEP = Sweep(
 )
 FAULTY = replace(
     SWEEP,
-    fields=(("scene.staircase.steps", (2, 3, 4)),),
+    fields=(("scene.staircase.steps", (2, 3, 4, 6, 7, 8, 9)),),
     seeds=(0,),
     timeout=3.0,
 )
+
+
+def pool(count: int) -> LocalPool:
+    """Processes of this machine that only stand in."""
+    return LocalPool(count, STAND_IN)
 
 
 def tried(folder: Path) -> list[str]:
@@ -51,7 +57,7 @@ def tried(folder: Path) -> list[str]:
 def test_every_run_has_a_row(tmp_path: Path) -> None:
     """Success by group, and the command of each failure."""
     told = []
-    ends = run_sweep(SWEEP, tmp_path / "s", 2, lambda *a: told.append(a), STAND_IN)
+    ends = run_sweep(SWEEP, tmp_path / "s", pool(2), lambda *a: told.append(a))
     assert len(ends) == len(told) == 12
     assert told[-1][1:] == (12, 12)
     table = write_tables(SWEEP, tmp_path / "s")
@@ -76,28 +82,50 @@ def test_every_run_has_a_row(tmp_path: Path) -> None:
 
 
 def test_what_dies_or_hangs_is_told_and_the_rest_goes_on(tmp_path: Path) -> None:
-    """It has no result, and is tried again."""
+    """It has no result, and is tried again; a worker that is gone is begun again."""
     folder = tmp_path / "s"
-    ends = {e.job.number: e for e in run_sweep(FAULTY, folder, 3, None, STAND_IN)}
-    assert [ends[n].end for n in range(3)] == ["done", "died", "hung"]
+    ends = {e.job.number: e for e in run_sweep(FAULTY, folder, pool(2))}
+    assert [ends[n].end for n in range(7)] == [
+        *("done", "died", "hung", "died", "died", "died", "done")
+    ]
     assert ends[1].reason == "exit status 3: a bad day"
     assert "within 3 s" in ends[2].reason
+    assert "exit status 1: OSError: [Errno 28] No space left" in ends[3].reason
+    assert ends[4].reason == "exit status -9: it said nothing"
+    assert ends[5].reason == "its worker, -9: it said nothing"
     table = make_table(FAULTY, folder)
-    assert list(table["outcome"]) == ["completed", "no result", "no result"]
-    assert "Without a result: 2" in report(FAULTY, table)
-    run_sweep(FAULTY, folder, 3, None, STAND_IN)
-    assert sorted(tried(folder)) == ["00000", "00001", "00001", "00002", "00002"]
+    none = ["no result"] * 5
+    assert list(table["outcome"]) == ["completed", *none, "completed"]
+    assert "Without a result: 5" in report(FAULTY, table)
+    run_sweep(FAULTY, folder, pool(3))
+    again = [f"{number:05d}" for number in range(1, 6)]
+    assert sorted(tried(folder)) == sorted(["00000", "00006", *again, *again])
+
+
+def test_a_result_that_cannot_be_written_is_told(tmp_path: Path) -> None:
+    """The disk is full for one of twelve, which is tried again."""
+    folder, told = tmp_path / "s", []
+
+    def fill(ended: JobEnd, done: int, of: int) -> None:
+        told.append(ended)
+        if done == 1:
+            (folder / "results" / "00004.json.partial").symlink_to("/dev/full")
+
+    run_sweep(SWEEP, folder, pool(1), fill)
+    assert [ended.end for ended in told].count("done") == 11
+    assert told[4].reason.startswith("its result cannot be written: [Errno 28]")
+    assert [e.job.number for e in run_sweep(SWEEP, folder, pool(1))] == [4]
 
 
 def test_a_sweep_that_was_cut_gives_the_same_table(tmp_path: Path) -> None:
     """Byte for byte, though some of its runs were made before; none is made twice."""
     whole, cut = tmp_path / "whole", tmp_path / "cut"
-    run_sweep(SWEEP, whole, 2, None, STAND_IN)
-    run_sweep(SWEEP, cut, 2, None, STAND_IN)
+    run_sweep(SWEEP, whole, pool(2))
+    run_sweep(SWEEP, cut, pool(2))
     for number in (3, 7, 8):
         (cut / "results" / f"{number:05d}.json").unlink()
     (cut / "results" / "00009.json").write_text('{"key": "half')
-    run_sweep(SWEEP, cut, 2, None, STAND_IN)
+    run_sweep(SWEEP, cut, pool(2))
     assert sorted(tried(cut)) == sorted(
         [*(f"{n:05d}" for n in range(12)), "00003", "00007", "00008", "00009"]
     )
@@ -109,13 +137,13 @@ def test_a_sweep_that_was_cut_gives_the_same_table(tmp_path: Path) -> None:
 
 def test_a_folder_of_another_sweep_is_refused(tmp_path: Path) -> None:
     """And one that holds something else."""
-    run_sweep(SWEEP, tmp_path / "s", 2, None, STAND_IN)
+    run_sweep(SWEEP, tmp_path / "s", pool(2))
     with pytest.raises(SweepError, match="holds another sweep than study"):
-        run_sweep(replace(SWEEP, seeds=(5,)), tmp_path / "s", 2, None, STAND_IN)
+        run_sweep(replace(SWEEP, seeds=(5,)), tmp_path / "s", pool(2))
     (tmp_path / "other").mkdir()
     (tmp_path / "other" / "mine.txt").write_text("mine")
     with pytest.raises(SweepError, match="is not an empty folder"):
-        run_sweep(SWEEP, tmp_path / "other", 2, None, STAND_IN)
+        run_sweep(SWEEP, tmp_path / "other", pool(2))
 
 
 def test_what_a_scenario_refuses_is_told_before_anything_runs(tmp_path: Path) -> None:
@@ -125,7 +153,7 @@ def test_what_a_scenario_refuses_is_told_before_anything_runs(tmp_path: Path) ->
         "scenario: stairs-exp1\nfields: {scene.staircase.rise: [0.1, -0.1]}"
     )
     with pytest.raises(SweepError, match=r"study\.yaml: run 1: .*rise: must be pos"):
-        sweep_scenario(file, tmp_path / "s", 1, print)
+        sweep_scenario(file, tmp_path / "s", pool(1), print)
     assert not (tmp_path / "s").exists()
 
 
