@@ -81,6 +81,27 @@ def test_every_run_has_a_row(tmp_path: Path) -> None:
     assert all(one.path.stat().st_size > 5000 for one in drawn)
 
 
+def test_cases_have_a_column_and_figures_are_shown(tmp_path: Path) -> None:
+    """Success is counted by case where nothing else is asked for."""
+    cases = (("low", ("scene.staircase.rise=0.1",)), ("high", ()))
+    sweep = replace(
+        SWEEP,
+        cases=cases,
+        fields=(),
+        seeds=(0, 1),
+        changes=("scene.staircase.rise=0.2",),
+        show=("climb_time_s", "max_foot_slip_m"),
+    )
+    run_sweep(sweep, tmp_path / "s", pool(2))
+    table = write_tables(sweep, tmp_path / "s")
+    assert list(table["case"]) == ["low", "low", "high", "high"]
+    assert list(table["outcome"]) == ["completed"] * 2 + ["fell"] * 2
+    text = report(sweep, table)
+    assert "## By `case`\n\n| | success |\n|---|---|\n| low | 2 of 2" in text
+    assert "| 1 | low | 1 | completed | 2 |  |" in text
+    assert load_sweep(tmp_path / "s").sweep == sweep
+
+
 def test_what_dies_or_hangs_is_told_and_the_rest_goes_on(tmp_path: Path) -> None:
     """It has no result, and is tried again; a worker that is gone is begun again."""
     folder = tmp_path / "s"
@@ -158,13 +179,16 @@ def test_what_a_scenario_refuses_is_told_before_anything_runs(tmp_path: Path) ->
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="POSIX signals")
-def test_two_real_runs_killed_half_way_and_resumed(tmp_path: Path) -> None:
-    """By SIGKILL, its worker goes too; the same command goes on to the same table."""
+def test_real_runs_killed_half_way_and_resumed(tmp_path: Path) -> None:
+    """By SIGKILL, workers and runs go too; the same command goes on to the same table.
+
+    That is the table of a sweep that nobody cut, byte for byte.
+    """
     file = tmp_path / "stand.yaml"
     file.write_text(
-        "scenario: stand\nfields: {task.stand_time: [0.1, 0.2]}\nkeep: none\n"
+        "scenario: stand\nfields: {task.stand_time: [0.1, 0.2, 0.3]}\nkeep: none\n"
     )
-    folder = tmp_path / "s"
+    folder, whole = tmp_path / "s", tmp_path / "whole"
     command = [sys.executable, "-m", "footfall", "sweep", str(file), "--jobs", "1"]
     first = subprocess.Popen([*command, "--out", str(folder)], start_new_session=True)
     results = folder / "results"
@@ -176,11 +200,12 @@ def test_two_real_runs_killed_half_way_and_resumed(tmp_path: Path) -> None:
     again = subprocess.run(
         [*command, "--out", str(folder)], capture_output=True, text=True, check=True
     )
-    assert "2/2  run 1  completed" in again.stdout
-    assert "0/2" not in again.stdout
-    assert "success: 2 of 2" in again.stdout
-    table = load_sweep(folder).table
-    assert list(table["outcome"]) == ["completed"] * 2
-    assert list(table["task.stand_time"]) == [0.1, 0.2]
+    assert "3/3  run 2  completed" in again.stdout
+    assert "1/3" not in again.stdout
+    assert "success: 3 of 3" in again.stdout
+    sweep_scenario(file, whole, LocalPool(2), lambda line: None)
+    for name in ("table.parquet", "report.md"):
+        assert (whole / name).read_bytes() == (folder / name).read_bytes()
+    assert list(load_sweep(folder).table["task.stand_time"]) == [0.1, 0.2, 0.3]
     assert not (folder / "runs" / "00000" / "signals").exists()
     assert (folder / "runs" / "00000" / "scenario.yaml").exists()
