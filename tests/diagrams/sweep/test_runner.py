@@ -178,7 +178,52 @@ def test_what_a_scenario_refuses_is_told_before_anything_runs(tmp_path: Path) ->
     assert not (tmp_path / "s").exists()
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="POSIX signals")
+def descendants(pid: int) -> set[int]:
+    """The processes that a process has begun, and those that they have."""
+    found: set[int] = set()
+    for threads in Path(f"/proc/{pid}/task").glob("*/children"):
+        for child in map(int, threads.read_text().split()):
+            found |= {child} | descendants(child)
+    return found
+
+
+def assert_gone(pids: set[int], within: float) -> None:
+    """None of these processes lives on, s."""
+    end = time.monotonic() + within
+    while alive := {pid for pid in pids if Path(f"/proc/{pid}/exe").exists()}:
+        assert time.monotonic() < end, alive
+        time.sleep(0.05)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
+def test_ctrl_c_ends_what_goes_on(tmp_path: Path) -> None:
+    """Exit status 130, one line that says how it goes on, and no process is left."""
+    file = tmp_path / "stand.yaml"
+    file.write_text("scenario: stand\nset: [task.stand_time=60.0]\nseeds: 2\n")
+    command = [sys.executable, "-m", "footfall", "sweep", str(file), "--jobs", "2"]
+    process = subprocess.Popen(
+        [*command, "--out", str(tmp_path / "s")],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    runs = tmp_path / "s" / "runs"
+    while not (runs.exists() and len(list(runs.iterdir())) == 2):
+        assert process.poll() is None
+        time.sleep(0.05)
+    begun = descendants(process.pid)
+    assert len(begun) == 4  # two workers, and a run of each
+    process.send_signal(signal.SIGINT)
+    said = process.communicate(timeout=30.0)
+    assert process.returncode == 130
+    assert said == (
+        "",
+        "footfall: interrupted; the same command goes on where it was\n",
+    )
+    assert_gone(begun, 5.0)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
 def test_real_runs_killed_half_way_and_resumed(tmp_path: Path) -> None:
     """By SIGKILL, workers and runs go too; the same command goes on to the same table.
 
@@ -195,8 +240,11 @@ def test_real_runs_killed_half_way_and_resumed(tmp_path: Path) -> None:
     while not (results.exists() and list(results.iterdir())):
         assert first.poll() is None
         time.sleep(0.05)
+    begun = descendants(first.pid)
+    assert begun
     os.kill(first.pid, signal.SIGKILL)
     first.wait()
+    assert_gone(begun, 5.0)
     again = subprocess.run(
         [*command, "--out", str(folder)], capture_output=True, text=True, check=True
     )
