@@ -11,6 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from itertools import islice
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -27,6 +28,8 @@ PARTIAL = ".partial"
 """What is appended to the name of a file that is not whole yet."""
 FRAME = b"frame"
 """Under which key a file's metadata holds the frame of its elements."""
+UNIT, LOWER, UPPER = b"unit", b"lower_limit", b"upper_limit"
+"""Under which keys a column's metadata holds its unit, and its limits if it has any."""
 GROUP = 64
 """How many batches of a stream make a row group of a Parquet file."""
 
@@ -88,7 +91,10 @@ def _name_file(error: BaseException, path: Path) -> None:
 
 
 def stream_start(
-    columns: Sequence[str], units: Sequence[str], frame: str = ""
+    columns: Sequence[str],
+    units: Sequence[str],
+    frame: str = "",
+    limits: Mapping[str, tuple[float, float]] | None = None,
 ) -> bytes:
     """Writes the beginning of an Arrow stream: `time` [s], then a column an element.
 
@@ -96,8 +102,9 @@ def stream_start(
         columns: names of the elements.
         units: their units.
         frame: what they are expressed in, as `signal_frames` says it.
+        limits: least and most that an element may have, by column.
     """
-    schema = _schema(columns, units).with_metadata({FRAME: frame})
+    schema = _schema(columns, units, limits or {}).with_metadata({FRAME: frame})
     return schema.serialize().to_pybytes()  # type: ignore[no-any-return]
 
 
@@ -164,13 +171,19 @@ def read_table(path: Path) -> pa.Table:
         raise RunError(f"{path}: not a {kind}: {error}") from error
 
 
-def _schema(columns: Sequence[str], units: Sequence[str]) -> pa.Schema:
-    return pa.schema(
-        [
-            pa.field(column, pa.float64(), metadata={"unit": unit})
-            for column, unit in zip(("time", *columns), ("s", *units), strict=True)
-        ]
-    )
+def _schema(
+    columns: Sequence[str],
+    units: Sequence[str],
+    limits: Mapping[str, tuple[float, float]] | None = None,
+) -> pa.Schema:
+    fields = []
+    for column, unit in zip(("time", *columns), ("s", *units), strict=True):
+        about = {UNIT: unit}
+        if limits and column in limits:
+            low, high = limits[column]
+            about |= {LOWER: repr(float(low)), UPPER: repr(float(high))}
+        fields.append(pa.field(column, pa.float64(), metadata=about))
+    return pa.schema(fields)
 
 
 def _whole_batches(reader: pa.RecordBatchReader) -> Iterator[pa.RecordBatch]:
@@ -179,6 +192,27 @@ def _whole_batches(reader: pa.RecordBatchReader) -> Iterator[pa.RecordBatch]:
             yield reader.read_next_batch()
         except (StopIteration, pa.ArrowException, OSError):
             return
+
+
+def signal_attrs(schema: pa.Schema) -> dict[str, Any]:
+    """Reads what a signal's file says of it.
+
+    Returns:
+        `units` and `limits` by column, the latter least and most of those that have
+        limits, and `frame`, what the elements are expressed in.
+    """
+    columns = {item.name: item.metadata or {} for item in schema}
+    return {
+        "units": {
+            name: about.get(UNIT, b"").decode() for name, about in columns.items()
+        },
+        "limits": {
+            name: (float(about[LOWER]), float(about[UPPER]))
+            for name, about in columns.items()
+            if LOWER in about
+        },
+        "frame": (schema.metadata or {}).get(FRAME, b"").decode(),
+    }
 
 
 class SignalFrames(Mapping[str, pd.DataFrame]):
@@ -194,8 +228,9 @@ class SignalFrames(Mapping[str, pd.DataFrame]):
     def __getitem__(self, name: str) -> pd.DataFrame:
         """Reads a signal's data frame, a column an element after `time` [s].
 
-        `frame.attrs["units"]` has the unit by column, `frame.attrs["frame"]` what the
-        elements are expressed in, "" where that is not known.
+        `frame.attrs["units"]` has the unit by column, `frame.attrs["limits"]` least and
+        most of those columns that have limits, `frame.attrs["frame"]` what the elements
+        are expressed in, "" where that is not known.
 
         Raises:
             KeyError: the run did not log this signal.
@@ -207,12 +242,7 @@ class SignalFrames(Mapping[str, pd.DataFrame]):
         if name not in self._frames:
             table = read_table(self._paths[name])
             frame: pd.DataFrame = table.to_pandas()
-            frame.attrs["units"] = {
-                item.name: (item.metadata or {}).get(b"unit", b"").decode()
-                for item in table.schema
-            }
-            about = table.schema.metadata or {}
-            frame.attrs["frame"] = about.get(FRAME, b"").decode()
+            frame.attrs.update(signal_attrs(table.schema))
             self._frames[name] = frame
         return self._frames[name]
 

@@ -3,7 +3,7 @@
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
@@ -42,6 +42,8 @@ class VectorSignal:
     """Unit of each element, e.g. "m", "Nm"; "1" where it has none."""
     period: float
     """Time between samples, s."""
+    limits: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    """Least and most that an element may have, by column, where it has limits."""
 
 
 @dataclass(frozen=True)
@@ -75,6 +77,7 @@ class SignalRecorder:
         columns: tuple[str, ...],
         units: tuple[str, ...] | str,
         period: float,
+        limits: Mapping[str, tuple[float, float]] | None = None,
     ) -> None:
         """Logs a vector port from now on; call before the diagram is built.
 
@@ -84,6 +87,7 @@ class SignalRecorder:
             columns: a name for each element, all different, none of them "time".
             units: the unit of each element, or one for all.
             period: time between samples, s; see `SignalLog` for what a sample holds.
+            limits: least and most that an element may have, by column.
 
         Raises:
             ValueError: the name is taken or ill-formed, or the numbers do not match.
@@ -103,7 +107,9 @@ class SignalRecorder:
             self._builder.AddNamedSystem(f"signal_log({period:g} s)", log)
         log = self._logs[period]
         self._builder.Connect(port, log.declare_signal(name, port.size()))
-        self._vectors[name] = VectorSignal(name, port, columns, every, period)
+        self._vectors[name] = VectorSignal(
+            name, port, columns, every, period, limits or {}
+        )
 
     def add_value(
         self, name: str, port: OutputPort, period: float, keep: bool = True
@@ -262,8 +268,12 @@ class SignalStream:
                 continue
             content = stream_batch(signal.columns, signal.units, rows)
             if name not in sizes:
-                start = stream_start(signal.columns, signal.units, frame_of(name))
-                content = start + content
+                content = (
+                    stream_start(
+                        signal.columns, signal.units, frame_of(name), signal.limits
+                    )
+                    + content
+                )
             self._append(name + STREAM, content, sizes, name)
             times[name] = float(rows[-1, 0])
         for name, log in self._recorder.logged_values(self.context).items():

@@ -7,6 +7,7 @@ from time import perf_counter
 from footfall.diagrams.scenario import ScenarioError, load_scenario
 from footfall.diagrams.sweep.definition import Sweep, SweepError, load_sweep_file
 from footfall.diagrams.sweep.figures import draw_sweep
+from footfall.diagrams.sweep.pools import Pool
 from footfall.diagrams.sweep.runner import JobEnd, run_sweep
 from footfall.diagrams.sweep.sampling import jobs_of
 from footfall.diagrams.sweep.table import Rate, rate_of, write_tables
@@ -16,21 +17,22 @@ SWEEPS_FOLDER = Path("sweeps")
 
 
 def sweep_scenario(
-    file: Path, out: Path | None, jobs: int, tell: Callable[[str], None]
+    file: Path, out: Path | None, pool: Pool, tell: Callable[[str], None]
 ) -> tuple[Path, Rate, int]:
     """Carries a sweep out, or goes on with it, and writes its table and figures.
 
     Args:
         file: its definition.
         out: where it goes; None for `SWEEPS_FOLDER` and the file's name.
-        jobs: how many runs go on at a time.
+        pool: where the runs go on, and how many at a time.
         tell: is told a line for every run that ends.
 
     Returns:
         Its folder, how often it succeeded, and how many runs have no result.
 
     Raises:
-        SweepError: the definition cannot be used, or the folder holds another.
+        SweepError: the definition cannot be used, the folder holds another, or the
+            pool is not to be had.
         OSError: the folder cannot be written to.
     """
     sweep = load_sweep_file(file)
@@ -46,7 +48,7 @@ def sweep_scenario(
         left = time_left(perf_counter() - begun, tried, of - done)
         tell(f"{done}/{of}  run {ended.job.number}  {what}{left}")
 
-    ends = run_sweep(sweep, folder, jobs, progress)
+    ends = run_sweep(sweep, folder, pool, progress)
     table = write_tables(sweep, folder)
     draw_sweep(sweep, table, folder)
     missing = sum(ended.end != "done" for ended in ends)

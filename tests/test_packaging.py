@@ -9,6 +9,7 @@ from importlib.metadata import distribution, entry_points
 from pathlib import Path
 
 import pytest
+import yaml
 
 ROOT = Path(__file__).resolve().parents[1]
 TOP_LEVEL = ("diagrams", "models", "systems")
@@ -120,6 +121,18 @@ def test_the_command_is_there() -> None:
     from footfall.__main__ import main
 
     assert command.load() is main
+
+
+def test_the_citation_is_of_this_version() -> None:
+    """As is the newest release of the changelog."""
+    cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    version = PROJECT["project"]["version"]
+    assert cited["version"] == version
+    assert cited["license"] == PROJECT["project"]["license"]
+    assert len(cited["references"]) == 3
+    changes = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+    released = [line for line in changes.splitlines() if line.startswith("## ")][1:]
+    assert released[0] == f"## {version}"
 
 
 def test_constraints_hold_every_requirement() -> None:

@@ -8,6 +8,7 @@ import typer
 
 from footfall.diagrams.cli.check_robot import check_robot_file
 from footfall.diagrams.cli.estimate import estimate
+from footfall.diagrams.cli.export import export
 from footfall.diagrams.cli.pictures import diagram, plot, replay
 from footfall.diagrams.cli.render import render
 from footfall.diagrams.cli.report import report
@@ -112,6 +113,7 @@ COMMANDS: tuple[tuple[str, Callable[..., None], tuple[str, ...]], ...] = (
         ),
     ),
     ("replay", replay, ("footfall replay runs/stairs-exp1-seed0",)),
+    ("export", export, ("footfall export runs/stairs-exp1-seed0",)),
     (
         "render",
         render,

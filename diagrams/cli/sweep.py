@@ -35,12 +35,24 @@ def sweep(
             show_default=False,
         ),
     ] = None,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(
+            metavar="ADDRESS",
+            help="Run on a Dask cluster whose scheduler has this address, "
+            "tcp://HOST:PORT; each thread of its workers takes a run at a time.",
+            show_default=False,
+        ),
+    ] = None,
 ) -> None:
     """Run a scenario many times; write a table, a report and figures.
 
     Each run is a process of its own. A sweep that was cut, by Ctrl-C or by a power
     failure, goes on where it was when it is called again. It takes as long as its runs,
     about a minute each, over the jobs; how much is left is told after each.
+
+    On a Dask cluster the folder of the sweep, and a scenario file of your own, must lie
+    on a file system that its machines share; it needs the extra `cluster`.
 
     Six staircases, both seeds of each, are:
 
@@ -53,12 +65,18 @@ def sweep(
     with bad_input_in_one_line():
         import os
 
+        from footfall.diagrams.sweep.definition import SweepError
+        from footfall.diagrams.sweep.pools import DaskPool, LocalPool, Pool
         from footfall.diagrams.sweep_command import sweep_scenario
 
-        count = jobs or os.cpu_count() or 1
+        if jobs and scheduler:
+            raise SweepError("--jobs: a cluster has as many as its workers' threads")
+        pool: Pool = (
+            DaskPool(scheduler) if scheduler else LocalPool(jobs or os.cpu_count() or 1)
+        )
         with StopSignals() as stop:
             try:
-                folder, rate, missing = sweep_scenario(file, out, count, typer.echo)
+                folder, rate, missing = sweep_scenario(file, out, pool, typer.echo)
             except KeyboardInterrupt:
                 line = "footfall: interrupted; the same command goes on where it was"
                 typer.echo(line, err=True)

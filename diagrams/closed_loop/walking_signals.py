@@ -1,6 +1,7 @@
 """The signals that every walking task logs."""
 
 from footfall.diagrams.closed_loop.estimation_signals import estimation_signals
+from footfall.diagrams.closed_loop.joint_limits import joint_limits
 from footfall.diagrams.closed_loop.logged_vector import (
     WRENCH,
     WRENCH_UNITS,
@@ -103,9 +104,12 @@ def log_walking(loop: LoopBuilder, setup: Setup, true: RobotStation) -> None:
     """
     signals = loop.signals
     estimation = estimation_signals(setup.model)
+    limits = joint_limits(true.plant, true.instance)
     for name, port, columns, units in (*_plant_signals(true), *WALKING, *estimation):
         if (output := loop.find_output(port)) is not None:
-            signals.add_vector(name, output, columns, units, SIGNAL_PERIOD)
+            every = (units,) * len(columns) if isinstance(units, str) else units
+            within = limits.of_columns(columns, every)
+            signals.add_vector(name, output, columns, every, SIGNAL_PERIOD, within)
     loop.log("contact_monitor.touches")
     if (polygon := loop.find_output(POLYGON_SIGNAL)) is not None:
         signals.add_value(POLYGON_SIGNAL, polygon, VALUE_PERIOD, keep=False)

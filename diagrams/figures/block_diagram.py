@@ -1,7 +1,7 @@
 """The block diagram of a closed loop as a picture."""
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from html import escape
 from typing import NamedTuple
@@ -103,17 +103,21 @@ def block_diagram_svg(diagram: Diagram, title: str) -> str:
     vectors are solid and blue, those that carry abstract values dashed and brown.
     Ports that nothing is connected to are grey.
     """
-    # Where its X11 libraries are missing, all but this one picture can be drawn.
+    return draw_blocks(*topology(diagram), title)
+
+
+def draw_blocks(blocks: Sequence[Block], wires: Sequence[Wire], title: str) -> str:
+    """Draws blocks and wires as SVG; without a title there is no legend either."""
+    # Where its X11 libraries are missing, all but these pictures can be drawn.
     import pygraphviz  # type: ignore[import-untyped]
 
-    blocks, wires = topology(diagram)
     graph = pygraphviz.AGraph(directed=True, strict=False)
     graph.graph_attr.update(
         rankdir="LR",
         ranksep="1.1",
         nodesep="0.25",
         fontname="Helvetica",
-        label=_legend(title),
+        label=_legend(title) if title else "",
         labelloc="b",
     )
     graph.node_attr.update(shape="plain", fontname="Helvetica", fontsize="11")

@@ -22,6 +22,7 @@ from footfall.diagrams.sweep.table import (
     Rate,
     rate_of,
     rates_by_field,
+    varied_columns,
 )
 
 
@@ -60,8 +61,7 @@ def report_sweep(folder: Path) -> Path:
     """
     found = load_sweep(folder)
     sweep, table = found.sweep, found.table
-    fields = [name for name, _ in sweep.fields]
-    columns = ["run", *fields, "seed", "outcome"]
+    columns = ["run", *varied_columns(sweep), "seed", "outcome"]
     html = render_page(
         "sweep.html.j2",
         title=sweep.name,
@@ -91,7 +91,7 @@ def report_sweep(folder: Path) -> Path:
 def sweep_sentence(sweep: Sweep, table: pd.DataFrame) -> str:
     """Says in two sentences what was varied, and how often it went well."""
     rate, missing = rate_of(table), int((table["outcome"] == NO_RESULT).sum())
-    varied = " and ".join(name for name, _ in sweep.fields) or "seeds alone"
+    varied = " and ".join(varied_columns(sweep)) or "seeds alone"
     seeds = "1 seed" if len(sweep.seeds) == 1 else f"{len(sweep.seeds)} seeds"
     said = f"{len(table)} runs over {varied}, {seeds} each."
     if rate.runs:

@@ -1,10 +1,11 @@
 """The definition of a sweep: what is varied and how, read from a YAML file."""
 
 import math
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Any, Literal, TypeAlias, cast
 
+from footfall.diagrams.judge.summary import Summary
 from footfall.diagrams.schema import FieldError, parse_yaml
 from footfall.models.values.validation import MAX_SEED
 
@@ -14,9 +15,13 @@ Keep: TypeAlias = Literal["all", "failures", "none"]
 KEEPS: tuple[Keep, ...] = ("all", "failures", "none")
 KNOWN = (
     *("scenario", "set", "fields", "sampling", "count", "seeds", "draw_seed"),
-    *("group_by", "timeout", "keep"),
+    *("cases", "group_by", "show", "timeout", "keep"),
 )
 MOST_RUNS = 100_000
+FIGURES = frozenset(field.name for field in fields(Summary))
+"""What a summary holds."""
+CASE = "case"
+"""The column that says which case a run is of; cases are grouped by under this name."""
 
 
 class SweepError(ValueError):
@@ -49,6 +54,8 @@ class Sweep:
     """Name of a shipped scenario, or the path of a file in full."""
     changes: tuple[str, ...] = ()
     """"KEY=VALUE" each, the same in every run."""
+    cases: tuple[tuple[str, tuple[str, ...]], ...] = ()
+    """By name "KEY=VALUE"s that belong together; each is run with all that varies."""
     fields: tuple[tuple[str, Values], ...] = ()
     """By dotted path what each varied field takes."""
     sampling: Sampling = "grid"
@@ -60,6 +67,8 @@ class Sweep:
     """Of the samples."""
     group_by: tuple[str, ...] = ()
     """Fields by whose values success is counted."""
+    show: tuple[str, ...] = ()
+    """Figures of the summary that the report lists run by run."""
     timeout: float = 1800.0
     """Wall time after which a run counts as hung, s."""
     keep: Keep = "failures"
@@ -99,8 +108,9 @@ def sweep_from_json(data: dict[str, Any]) -> Sweep:
         KeyError, TypeError: it is something else.
     """
     listed: dict[str, Any] = {
-        name: tuple(data[name]) for name in ("changes", "seeds", "group_by")
+        name: tuple(data[name]) for name in ("changes", "seeds", "group_by", "show")
     }
+    listed["cases"] = tuple((name, tuple(said)) for name, said in data["cases"])
     listed["fields"] = tuple(
         (path, Range(**values) if isinstance(values, dict) else tuple(values))
         for path, values in data["fields"]
@@ -116,31 +126,44 @@ def _sweep(data: dict[str, Any], path: Path) -> Sweep:
     if not isinstance(scenario, str) or not scenario:
         raise FieldError("scenario", "must name a scenario or a file")
     beside = path.absolute().parent / scenario
-    fields = _fields(data.get("fields", {}))
+    varied = _fields(data.get("fields", {}))
     sampling = _choice("sampling", data.get("sampling", "grid"), SAMPLINGS)
     if sampling == "grid":
         if "count" in data:
             raise FieldError("count", "a grid has as many runs as it has points")
-        for name, values in fields:
+        for name, values in varied:
             if isinstance(values, Range) and not (values.levels or values.whole):
                 raise FieldError(f"fields.{name}.levels", "must be given for a grid")
+    cases = _cases(data.get("cases", {}))
     groups = _texts("group_by", data.get("group_by", []))
     for group in groups:
-        if group not in dict(fields):
+        if group not in dict(varied) and not (cases and group == CASE):
             raise FieldError("group_by", f"{group} is none of the fields varied")
+    shown = _texts("show", data.get("show", []))
+    for name in shown:
+        if name not in FIGURES:
+            raise FieldError("show", f"{name} is no figure of a summary")
     return Sweep(
         name=path.stem,
         scenario=str(beside) if beside.is_file() else scenario,
         changes=_texts("set", data.get("set", [])),
-        fields=fields,
+        cases=cases,
+        fields=varied,
         sampling=cast(Sampling, sampling),
         count=_whole("count", data.get("count", 1), 1, MOST_RUNS),
         seeds=_seeds(data.get("seeds", [0])),
         draw_seed=_whole("draw_seed", data.get("draw_seed", 0), 0, MAX_SEED),
         group_by=groups,
+        show=shown,
         timeout=_number("timeout", data.get("timeout", 1800.0), 1.0),
         keep=cast(Keep, _choice("keep", data.get("keep", "failures"), KEEPS)),
     )
+
+
+def _cases(data: Any) -> tuple[tuple[str, tuple[str, ...]], ...]:
+    if not isinstance(data, dict):
+        raise FieldError("cases", "must hold names of cases and what is set in each")
+    return tuple((str(name), _texts(f"cases.{name}", v)) for name, v in data.items())
 
 
 def _fields(data: Any) -> tuple[tuple[str, Values], ...]:

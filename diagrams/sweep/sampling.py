@@ -32,11 +32,13 @@ class Job:
     """By path of each varied field its value, in the sweep's order."""
     seed: int
     """`simulation.seed`."""
+    case: str = ""
+    """Which of the sweep's cases it is; empty where it has none."""
 
     def changes(self, sweep: Sweep) -> list[str]:
         """Lists all that differs from the scenario, "KEY=VALUE" each, but the seed."""
         own = (f"{key}={_yaml(value)}" for key, value in self.values)
-        return [*sweep.changes, *own]
+        return [*sweep.changes, *dict(sweep.cases).get(self.case, ()), *own]
 
 
 def jobs_of(sweep: Sweep) -> list[Job]:
@@ -47,15 +49,14 @@ def jobs_of(sweep: Sweep) -> list[Job]:
     """
     names = [name for name, _ in sweep.fields]
     samples = _samples(sweep)
-    if len(samples) * len(sweep.seeds) > MOST_RUNS:
-        raise SweepError(
-            f"{sweep.name}: {len(samples) * len(sweep.seeds)} runs are more than "
-            f"{MOST_RUNS}"
-        )
-    runs = itertools.product(samples, sweep.seeds)
+    cases = [name for name, _ in sweep.cases] or [""]
+    count = len(cases) * len(samples) * len(sweep.seeds)
+    if count > MOST_RUNS:
+        raise SweepError(f"{sweep.name}: {count} runs are more than {MOST_RUNS}")
+    runs = itertools.product(cases, samples, sweep.seeds)
     return [
-        Job(number, tuple(zip(names, sample, strict=True)), seed)
-        for number, (sample, seed) in enumerate(runs)
+        Job(number, tuple(zip(names, sample, strict=True)), seed, case)
+        for number, (case, sample, seed) in enumerate(runs)
     ]
 
 

@@ -10,7 +10,7 @@ import pandas as pd
 from scipy.stats import binomtest
 
 from footfall.diagrams.signal_files import whole_file
-from footfall.diagrams.sweep.definition import Sweep
+from footfall.diagrams.sweep.definition import CASE, Sweep
 from footfall.diagrams.sweep.runner import command_of, read_result
 from footfall.diagrams.sweep.sampling import jobs_of
 
@@ -55,9 +55,9 @@ class Rate:
 def make_table(sweep: Sweep, folder: Path) -> pd.DataFrame:
     """Reads the results of a sweep into a table, a row a run in the sweep's order.
 
-    Columns are `run`, the varied fields by their paths, `seed`, `outcome`, `reason`,
-    the figures of the summary that are numbers or texts, and `command`. What depends on
-    the machine is in `make_costs`.
+    Columns are `run`, `case` where there are cases, the varied fields by their paths,
+    `seed`, `outcome`, `reason`, the figures of the summary that are numbers or texts,
+    and `command`. What depends on the machine is in `make_costs`.
     """
     rows = []
     for job in jobs_of(sweep):
@@ -71,6 +71,7 @@ def make_table(sweep: Sweep, folder: Path) -> pd.DataFrame:
         rows.append(
             {
                 "run": job.number,
+                **({CASE: job.case} if sweep.cases else {}),
                 **dict(job.values),
                 "seed": job.seed,
                 "outcome": summary.get("outcome", NO_RESULT),
@@ -145,6 +146,11 @@ def _text(value: object) -> str | None:
     return None if missing else str(value)
 
 
+def varied_columns(sweep: Sweep) -> list[str]:
+    """Lists the columns in which the runs of a sweep differ, but for their seeds."""
+    return [*([CASE] if sweep.cases else []), *(name for name, _ in sweep.fields)]
+
+
 def rates_by_field(
     sweep: Sweep, table: pd.DataFrame
 ) -> list[tuple[str, list[tuple[str, Rate]]]]:
@@ -162,13 +168,13 @@ def rates_by_field(
                 for group, runs in table.groupby(groups_of(table, field), sort=False)
             ],
         )
-        for field in sweep.group_by or [name for name, _ in sweep.fields]
+        for field in sweep.group_by or varied_columns(sweep)
     ]
 
 
 def report(sweep: Sweep, table: pd.DataFrame) -> str:
     """Writes the table as Markdown, success first."""
-    rate, fields = rate_of(table), [name for name, _ in sweep.fields]
+    rate = rate_of(table)
     same = ", ".join(f"`{change}`" for change in sweep.changes)
     missing = int((table["outcome"] == NO_RESULT).sum())
     lines = [
@@ -198,12 +204,21 @@ def report(sweep: Sweep, table: pd.DataFrame) -> str:
             lines.append(
                 f"| {row['run']} | {row['outcome']} | {reason} | `{row['command']}` |"
             )
-    shown = ["run", *fields, "seed", "outcome"]
+    shown = ["run", *varied_columns(sweep), "seed", "outcome", *sweep.show]
     lines += ["", "## Runs", "", "| " + " | ".join(shown) + " |"]
     lines.append("|" + "---|" * len(shown))
-    lines += [_row(row[name] for name in shown) for _, row in table.iterrows()]
+    # A figure that no run has yet has no column.
+    runs = table.reindex(columns=shown).astype(object)
+    lines += [table_row(cells) for cells in runs.itertuples(index=False)]
     return "\n".join(lines) + "\n"
 
 
-def _row(cells: Iterable[Any]) -> str:
-    return "| " + " | ".join(str(cell) for cell in cells) + " |"
+def table_row(cells: Iterable[Any]) -> str:
+    """Writes a row of a Markdown table: four digits of a number, nothing for null."""
+    return "| " + " | ".join(_cell(cell) for cell in cells) + " |"
+
+
+def _cell(value: Any) -> str:
+    if isinstance(value, float):
+        return "" if math.isnan(value) else f"{value:.4g}"
+    return "" if value is None else str(value).replace("|", "/")

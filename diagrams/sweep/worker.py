@@ -1,43 +1,48 @@
-"""A run of a sweep in a process of its own, which is then gone with all its memory.
+"""The worker of a sweep, which `serving` describes.
 
-    python -m footfall.diagrams.sweep.worker JOB.json
+    python -m footfall.diagrams.sweep.worker
 
-The file names the scenario, what differs, and where the run and its result go. The
+A job's file names the scenario, what differs, and where the run and its result go. The
 result is written whole or not at all, so that whoever reads it finds no half of one.
 """
 
 import json
-import os
 import resource
 import shutil
-import sys
-import threading
 import time
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-WATCH = 0.5
-"""Between two looks at whether the sweep still lives, s."""
+from footfall.diagrams.closed_loop.tasks import build_task
+from footfall.diagrams.scenario import load_scenario
+from footfall.diagrams.signal_files import whole_file
+from footfall.diagrams.signals import SIGNALS_FOLDER
+from footfall.diagrams.simulation import run_task
+from footfall.diagrams.sweep.serving import serve
 
 
 def main() -> None:
-    """Runs one job."""
-    threading.Thread(target=_follow_parent, args=(os.getppid(),), daemon=True).start()
-    job: dict[str, Any] = json.loads(Path(sys.argv[1]).read_text(encoding="utf-8"))
+    """Serves jobs."""
+    # Half of what there is to import; systems that need it import it late.
+    import_module("footfall.systems.open3d_loader")
+    serve(run_file)
+
+
+def run_file(file: Path) -> None:
+    """Runs the job of a file and writes its result.
+
+    Raises:
+        OSError: the result, or the run, cannot be written.
+    """
+    job: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
     result = run_job(job)
-    path = Path(job["result"])
-    partial = path.with_suffix(".partial")
-    partial.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
-    partial.replace(path)
+    with whole_file(Path(job["result"])) as partial:
+        partial.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
 
 
 def run_job(job: dict[str, Any]) -> dict[str, Any]:
     """Simulates one run of a sweep and gives its summary and what it cost."""
-    from footfall.diagrams.closed_loop.tasks import build_task
-    from footfall.diagrams.scenario import load_scenario
-    from footfall.diagrams.signals import SIGNALS_FOLDER
-    from footfall.diagrams.simulation import run_task
-
     begin, folder = time.perf_counter(), Path(job["run"])
     shutil.rmtree(folder, ignore_errors=True)
     seed = f"simulation.seed={job['seed']}"
@@ -54,13 +59,6 @@ def run_job(job: dict[str, Any]) -> dict[str, Any]:
         "cpu_s": usage.ru_utime + usage.ru_stime,
         "memory_mb": usage.ru_maxrss / 1024.0,
     }
-
-
-def _follow_parent(parent: int) -> None:
-    """Ends this process when the sweep that began it is gone, however it went."""
-    while os.getppid() == parent:
-        time.sleep(WATCH)
-    os._exit(1)
 
 
 if __name__ == "__main__":

@@ -58,7 +58,8 @@ def test_a_signal_is_joined_by_time(runs) -> None:
     assert list(joined.columns) == [("low", "x"), ("high", "x")]
     np.testing.assert_array_equal(joined["low", "x"], [0.0, 5.0, np.nan])
     np.testing.assert_array_equal(joined["high", "x"], [np.nan, 5.0, 10.0])
-    assert joined.attrs == {"units": {"time": "s", "x": "m"}, "frame": "W"}
+    units = {"time": "s", "x": "m"}
+    assert joined.attrs == {"units": units, "limits": {}, "frame": "W"}
     with pytest.raises(KeyError, match=r"it has: a\.b"):
         compare_runs(*runs).signal("nope")
 

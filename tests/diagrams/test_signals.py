@@ -85,11 +85,13 @@ def test_the_frame_lies_in_the_files_metadata(tmp_path) -> None:
     """And in the data frame's attributes; a signal of the user's own has none."""
     write_run(tmp_path / "run")
     assert load_run(tmp_path / "run").signals["sine.y"].attrs["frame"] == ""
-    start = stream_start(("x",), ("m",), "W, true")
+    limits = {"x": (-0.5, 0.25)}
+    start = stream_start(("x",), ("m",), "W, true", limits)
     batch = stream_batch(("x",), ("m",), np.zeros((1, 2)))
     (tmp_path / "run" / "signals" / "a.b.arrows").write_bytes(start + batch)
     frame = load_run(tmp_path / "run").signals["a.b"]
-    assert frame.attrs == {"units": {"time": "s", "x": "m"}, "frame": "W, true"}
+    units = {"time": "s", "x": "m"}
+    assert frame.attrs == {"units": units, "limits": limits, "frame": "W, true"}
     make_parquet(tmp_path / "run" / "signals" / "a.b.arrows")
     schema = pq.read_schema(tmp_path / "run" / "signals" / "a.b.parquet")
     assert schema.metadata[b"frame"] == b"W, true"

@@ -1,40 +1,29 @@
-"""Crosses rooms with boxes at random, seed by seed, and writes what came of it.
+"""Says of the rooms of a sweep whether they can be crossed, by a search of its own.
 
-    python tests/studies/cross_rooms.py --first 0 --last 19 --out result.md
+    footfall sweep tests/studies/cross_rooms.yaml
+    python tests/studies/cross_rooms.py sweeps/cross_rooms --out result.md
 
 A refusal is right when a grid search on the true boxes finds no path either.
 """
 
 import argparse
-import tempfile
 from pathlib import Path
 
 import numpy as np
 import shapely
 from scipy.ndimage import label
 
-from footfall.diagrams.closed_loop.tasks import build_task
 from footfall.diagrams.scenario import Scenario, load_scenario
-from footfall.diagrams.simulation import run_task
+from footfall.diagrams.sweep.sampling import jobs_of
+from footfall.diagrams.sweep.sweep_folder import SweepFolder, load_sweep
+from footfall.diagrams.sweep.table import table_row
 
-COLUMNS = (
-    "outcome",
-    "reason",
-    "goal_error_m",
-    "goal_turn_rad",
-    "footsteps",
-    "max_dcm_error_m",
-    "max_foot_slip_m",
-    "max_speed_fraction",
-    "simulated_time_s",
-    "real_time_factor",
-)
 CELL = 0.05
 """Grid of the independent search, m."""
 
 
 def grid_finds_a_path(scenario: Scenario) -> bool:
-    """Whether start and goal are connected for the robot's disc, on a grid."""
+    """Tells whether start and goal are connected for the robot's disc, on a grid."""
     clearance = scenario.parameters.path_planner.clearance
     room = scenario.scene.room
     x = np.arange(-room.length / 2, room.length / 2, CELL)
@@ -64,34 +53,28 @@ def grid_finds_a_path(scenario: Scenario) -> bool:
     return bool(ends[0] == ends[1] != 0)
 
 
-def main() -> None:
-    """Runs the study."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--first", type=int, default=0)
-    parser.add_argument("--last", type=int, default=19)
-    parser.add_argument("--out", type=Path, default=None)
-    parser.add_argument("--keep", type=Path, default=None, help="folder for the runs")
-    parser.add_argument("--set", action="append", default=[], dest="changes")
-    arguments = parser.parse_args()
-    lines = ["| seed | boxes | grid finds a path | " + " | ".join(COLUMNS) + " |"]
-    lines.append("|" + "---|" * (len(COLUMNS) + 3))
-    print("\n".join(lines), flush=True)
-    for seed in range(arguments.first, arguments.last + 1):
-        changes = [f"simulation.seed={seed}", *arguments.changes]
-        scenario = load_scenario("room", changes)
-        with tempfile.TemporaryDirectory() as scratch:
-            folder = (arguments.keep or Path(scratch)) / f"seed-{seed}"
-            summary = run_task(build_task(scenario), scenario, folder).to_json()
-        values = [_format(summary[name]) for name in COLUMNS]
+def rooms(found: SweepFolder) -> list[str]:
+    """Writes the rows of a sweep's table beside what the grid finds."""
+    columns = ("outcome", "reason", *found.sweep.show)
+    heads = ("seed", "boxes", "grid finds a path", *columns)
+    lines = [table_row(heads), "|" + "---|" * len(heads)]
+    for job, (_, run) in zip(jobs_of(found.sweep), found.table.iterrows(), strict=True):
+        changes = [*job.changes(found.sweep), f"simulation.seed={job.seed}"]
+        scenario = load_scenario(found.sweep.scenario, changes)
         boxes, path = len(scenario.scene.boxes), grid_finds_a_path(scenario)
-        lines.append(f"| {seed} | {boxes} | {path} | " + " | ".join(values) + " |")
-        print(lines[-1], flush=True)
-    if arguments.out is not None:
-        arguments.out.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        told = (run.get(name) for name in columns)
+        lines.append(table_row((job.seed, boxes, path, *told)))
+    return lines
 
 
-def _format(value: object) -> str:
-    return f"{value:.4g}" if isinstance(value, float) else str(value)
+def main() -> None:
+    """Writes the table of a sweep of rooms."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("sweep", type=Path, help="the sweep's folder")
+    parser.add_argument("--out", type=Path, required=True, help="Markdown file")
+    arguments = parser.parse_args()
+    lines = rooms(load_sweep(arguments.sweep))
+    arguments.out.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -3,16 +3,13 @@
 A new System joins by an entry in `FACTORIES`; one without an entry fails here.
 """
 
-import importlib
 import inspect
-import pkgutil
 import re
 from collections.abc import Callable
 from functools import cache
 
 import numpy as np
 import pytest
-import yaml
 from pydrake.common.value import Value
 from pydrake.geometry import SceneGraph
 from pydrake.math import RigidTransform
@@ -20,7 +17,7 @@ from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import ModelInstanceIndex
 from pydrake.systems.framework import LeafSystem
 
-import footfall.systems
+from footfall.diagrams.reference.system_docs import documented_ports, find_systems
 from footfall.models.robots.jvrc1 import JVRC1
 from footfall.models.robots.robot_loader import add_robot
 from footfall.models.scenes.solids import triangle_mesh
@@ -212,32 +209,6 @@ FACTORIES: dict[type[LeafSystem], Callable[[], LeafSystem]] = {
     WholeBodyFeedforward: lambda: WholeBodyFeedforward(_plant(), JVRC1, 100.0),
     ZmpPreviewController: ZmpPreviewController,
 }
-
-
-def find_systems() -> list[type[LeafSystem]]:
-    """Every public LeafSystem that a module under systems/ defines."""
-    found = []
-    for info in pkgutil.walk_packages(footfall.systems.__path__, "footfall.systems."):
-        module = importlib.import_module(info.name)
-        found += [
-            member
-            for name, member in inspect.getmembers(module, inspect.isclass)
-            if issubclass(member, LeafSystem)
-            and member.__module__ == info.name
-            and not name.startswith("_")
-        ]
-    return sorted(found, key=lambda system: system.__qualname__)
-
-
-def documented_ports(system: type[LeafSystem]) -> dict[str, object]:
-    """The `.. pydrake_system::` block of a System's docstring."""
-    text = inspect.getdoc(system) or ""
-    block = re.search(
-        r"^\.\. pydrake_system::\n\n((?: {4}.*\n|\n)+)", text + "\n", re.M
-    )
-    assert block, f"{system.__qualname__} has no pydrake_system block"
-    ports = {"input_ports": [], "output_ports": []}
-    return ports | yaml.safe_load(inspect.cleandoc(block.group(1)))
 
 
 @pytest.mark.parametrize("system", find_systems(), ids=lambda s: s.__qualname__)

@@ -165,6 +165,10 @@ def test_the_reason_stays_one_line_as_it_is(stand, tmp_path) -> None:
         (("replay", "."), ("not a run folder", "scenario.yaml")),
         (("plot", ".", "--format", "png,tiff"), ("--format", "'png,tiff'")),
         (("render", ".", "--video", "v.avi"), ("--video v.avi", "end with .mp4")),
+        (
+            ("sweep", "x.yaml", "--jobs", "2", "--scheduler", "tcp://h:1"),
+            ("--jobs", "as many as its workers' threads"),
+        ),
         (("report", "."), ("neither a run's folder nor a sweep's",)),
         (("segment", "nowhere.pcd"), ("nowhere.pcd",)),
         (("segment", "x.pcd", "--gravity", "0,0"), ("--gravity", "'0,0'")),

@@ -10,6 +10,7 @@ import pytest
 from footfall.diagrams.report.any_report import write_report
 from footfall.diagrams.report.sweep_report import rate_row, sweep_sentence
 from footfall.diagrams.sweep.definition import Sweep, SweepError
+from footfall.diagrams.sweep.pools import LocalPool
 from footfall.diagrams.sweep.runner import command_of, run_sweep
 from footfall.diagrams.sweep.sampling import jobs_of
 from footfall.diagrams.sweep.table import Rate, write_tables
@@ -31,7 +32,7 @@ SWEEP = Sweep(
 def test_a_sweep_is_one_page(tmp_path: Path) -> None:
     """Rates by group, figures, what failed and how to repeat it."""
     folder = tmp_path / "s"
-    run_sweep(SWEEP, folder, 4, None, STAND_IN)
+    run_sweep(SWEEP, folder, LocalPool(4, STAND_IN))
     with pytest.raises(SweepError, match=r"has no table\.parquet"):
         write_report(folder)
     table = write_tables(SWEEP, folder)

@@ -26,7 +26,9 @@ def test_a_definition_is_read(tmp_path: Path) -> None:
         "  scene.staircase.steps: {from: 2, to: 4}\n"
         "  scene.staircase.closed_risers: [true, false]\n"
         "seeds: 2\n"
-        "group_by: [scene.staircase.rise]\n"
+        "cases: {walk: [], creep: [task.mode=quasi_static]}\n"
+        "group_by: [scene.staircase.rise, case]\n"
+        "show: [climb_time_s]\n"
     )
     sweep = load_sweep_file(file)
     assert sweep.scenario == str(tmp_path / "own.yaml")
@@ -36,6 +38,8 @@ def test_a_definition_is_read(tmp_path: Path) -> None:
         "scene.staircase.steps": Range(2, 4, None, whole=True),
         "scene.staircase.closed_risers": (True, False),
     }
+    assert sweep.cases == (("walk", ()), ("creep", ("task.mode=quasi_static",)))
+    assert sweep.show == ("climb_time_s",)
     assert (sweep.name, sweep.keep) == ("study", "failures")
     assert sweep_from_json(json.loads(json.dumps(sweep_to_json(sweep)))) == sweep
 
@@ -63,6 +67,10 @@ def test_a_definition_is_read(tmp_path: Path) -> None:
         ("scenario: a\nsampling: sobol", "sampling: must be one of grid, random, lat"),
         ("scenario: a\nseeds: [-1]", r"seeds\[0\]: must be a whole number of 0 to"),
         ("scenario: a\ngroup_by: [x]", "group_by: x is none of the fields varied"),
+        ("scenario: a\ngroup_by: [case]", "group_by: case is none of the fields"),
+        ("scenario: a\ncases: [x]", "cases: must hold names of cases and what is set"),
+        ("scenario: a\ncases: {x: a=1}", r"cases\.x: must be a list of texts"),
+        ("scenario: a\nshow: [hope]", "show: hope is no figure of a summary"),
         ("scenario: a\ntimeout: 0", "timeout: must be finite and at least 1, got 0"),
         ("scenario: a\nkeep: some", "keep: must be one of all, failures, none, got"),
     ],

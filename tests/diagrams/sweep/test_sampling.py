@@ -31,6 +31,18 @@ def test_a_grid_has_every_point_with_every_seed() -> None:
     assert sorted({dict(job.values)["rise"] for job in jobs}) == [0.1, 0.15, 0.2]
 
 
+def test_each_case_is_run_with_all_that_varies() -> None:
+    """Its changes come after those of the sweep, and before what is drawn."""
+    cases = (("flat", ("b=2", "c=3")), ("none", ()))
+    sweep = replace(SWEEP, cases=cases, fields=(("steps", (2, 3)),), seeds=(5,))
+    jobs = jobs_of(sweep)
+    assert [(job.case, dict(job.values)["steps"]) for job in jobs] == [
+        *(("flat", 2), ("flat", 3), ("none", 2), ("none", 3))
+    ]
+    assert jobs[1].changes(sweep) == ["a=1", "b=2", "c=3", "steps=3"]
+    assert jobs[2].changes(sweep) == ["a=1", "steps=2"]
+
+
 @pytest.mark.parametrize("sampling", ["random", "latin_hypercube"])
 def test_what_is_drawn_lies_within_and_is_the_same_again(sampling) -> None:
     """Another seed of the draw gives others."""
