@@ -17,13 +17,15 @@ from footfall.systems.perception.planes.planes import Patch
 from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterParams
 from footfall.systems.perception.planes.stair_chain import (
     floor_below,
-    is_landing,
     is_top,
     is_turned,
-    landing_candidates,
-    largest_size_cluster,
     longest_chain,
     split_at_turns,
+)
+from footfall.systems.perception.planes.tread_candidates import (
+    is_landing,
+    landing_candidates,
+    largest_size_cluster,
     tread_candidates,
 )
 from footfall.systems.perception.planes.treads import (

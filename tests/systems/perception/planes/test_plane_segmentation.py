@@ -20,18 +20,18 @@ from footfall.systems.perception.planes.levels import Sampling
 from footfall.systems.perception.planes.plane_segmentation import segment_planes
 from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterParams
 from footfall.systems.perception.planes.segments import tread_segment
-from footfall.systems.perception.planes.stair_chain import StairLimits
-from footfall.systems.perception.planes.staircase_merging import (
-    StaircaseMapParams,
-    leave_partial,
-)
 from footfall.systems.perception.planes.supervoxel_planes import (
     LevelVoxels,
     bound_planes,
     cluster_level,
     fit_planes,
 )
+from footfall.systems.perception.planes.tread_candidates import StairLimits
 from footfall.systems.perception.planes.voxels import adjacent_voxels, voxelize
+from footfall.systems.perception.staircases.staircase_merging import (
+    StaircaseMapParams,
+    leave_partial,
+)
 
 Scan = Callable[..., Vector]
 GRAVITY = np.array([0.0, 0.0, -9.81])

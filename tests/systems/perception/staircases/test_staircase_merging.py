@@ -13,7 +13,7 @@ from footfall.models.values.perceived import PlaneSegment, PlaneSegmentation, St
 from footfall.models.values.vector import Vector
 from footfall.systems.perception.planes.plane_segmentation import segment_planes
 from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterParams
-from footfall.systems.perception.planes.staircase_merging import (
+from footfall.systems.perception.staircases.staircase_merging import (
     StaircaseMapParams,
     merge_staircase,
 )
