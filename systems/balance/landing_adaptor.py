@@ -32,6 +32,9 @@ class LandingParams(Parameters):
     """After lift-off no touch counts for this long, s: the foot still leaves."""
     search_speed: float = number(0.10, "m/s", above=0.0)
     """Speed at which a foot that missed the ground goes on down, m/s."""
+    search_start: float = number(0.03, "m/s", least=0.0, most=1.0)
+    """Speed with which a foot that came to rest over the ground begins to look for it,
+    m/s: that with which walking feet land."""
     search_acceleration: float = number(0.5, "m/s^2", above=0.0)
     """How fast it takes that speed up, m/s^2: most ground is missed by less than a
     millimetre, and a leg that is heavy by its gears strikes it."""
@@ -116,7 +119,7 @@ def adapt(
                 offset + slack, state.offset_rate + slack_rate, params.release_time, h
             )
             slack, slack_rate = np.zeros(6), np.zeros(6)
-            searching = max(0.0, -float(rate[2]))
+            searching = max(params.search_start, -float(rate[2]))
             due = planned + offset - params.swing_delay * (rate + offset_rate)
             sag = state.sag + params.swing_gain * h * (due - measured)
             sag = np.clip(sag, -params.swing_limit, params.swing_limit)

@@ -112,7 +112,7 @@ def test_what_is_no_touch_down(time: float, rate: Vector, felt: bool) -> None:
 
 
 def test_late_touch_down_searches_for_the_ground() -> None:
-    """Straight down, faster up to the search speed, until it is felt."""
+    """Straight down, from its start faster up to the search speed, until it is felt."""
     state = in_the_air(standing(), 0.5)
     heights, rates = [], []
     for _ in range(60):
@@ -120,7 +120,8 @@ def test_late_touch_down_searches_for_the_ground() -> None:
         heights.append(pose[2])
         rates.append(rate[2])
     gain = PARAMS.search_acceleration * T
-    np.testing.assert_allclose(rates[:3], [-gain, -2 * gain, -3 * gain])
+    begun = PARAMS.search_start + gain * np.arange(1, 4)
+    np.testing.assert_allclose(rates[:3], -begun)
     assert rates[-1] == -PARAMS.search_speed
     np.testing.assert_allclose(np.diff(heights), np.array(rates[1:]) * T, atol=1e-12)
     np.testing.assert_allclose(pose[[0, 1, 3, 4, 5]], GROUND[[0, 1, 3, 4, 5]])
