@@ -13,9 +13,9 @@ from footfall.systems.perception.depth_cloud import DepthCloudParams
 from footfall.systems.perception.obstacles.boxes import ObstacleClustererParams
 from footfall.systems.perception.obstacles.obstacles import ObstacleFinderParams
 from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterParams
-from footfall.systems.perception.planes.staircase_merging import StaircaseMapParams
 from footfall.systems.perception.room.floor import FloorParams
 from footfall.systems.perception.scan_assembler import ScanAssemblerParams
+from footfall.systems.perception.staircases.staircase_merging import StaircaseMapParams
 from footfall.systems.planning.crossing.params import CrossingParams
 from footfall.systems.planning.executive.executive import ExecutiveParams
 from footfall.systems.planning.executive.path_executive import PathExecutiveParams

@@ -11,7 +11,7 @@ from footfall.models.robots.collision_hulls import collision_hulls
 from footfall.models.robots.self_distance import SelfDistanceMeter
 from footfall.models.values.vector import Vector
 from footfall.systems.perception.planes.plane_segmenter import PlaneSegmenter
-from footfall.systems.perception.planes.staircase_map import StaircaseMap
+from footfall.systems.perception.staircases.staircase_map import StaircaseMap
 from footfall.systems.planning.executive.executive import Executive
 from footfall.systems.planning.footsteps.footstep_planner import FootstepPlanner
 from footfall.systems.planning.motion.motion_planner import MotionPlanner

@@ -19,24 +19,27 @@ from footfall.models.robots.robot import RobotModel
 from footfall.models.values.feet import FEET
 from footfall.models.values.vector import Vector
 from footfall.systems.cached import declare_cached
+from footfall.systems.estimation.base_estimate import (
+    BaseEstimate,
+    FootPose,
+    deviations,
+    initial_estimate,
+    pack,
+    pack_known,
+    unpack,
+)
 from footfall.systems.estimation.filter_params import (
     FilterModel,
     FilterParams,
-    Rows,
     filter_model,
 )
-from footfall.systems.estimation.invariant_ekf import (
-    BaseEstimate,
-    FootPose,
-    hold_feet,
-    initial_estimate,
-    propagate,
-)
+from footfall.systems.estimation.invariant_ekf import carried, hold_feet, propagate
 from footfall.systems.estimation.known_ground import stand_on
-from footfall.systems.estimation.rotations import exp_rotation, log_rotation, skew
+from footfall.systems.estimation.rotations import exp_rotation, log_rotation
 from footfall.systems.plant_cache import declare_scratch_context
 from footfall.systems.ports import (
     declare_state,
+    declare_state_output,
     eval_vector,
     read_state,
     set_state,
@@ -52,64 +55,6 @@ BLIND_ACCELERATION = 3.0
 """How it is pulled, m/s^2 per root Hz."""
 LAID = -1.0
 """Stands for the time of a foot whose ground has been taken into account."""
-_FIELDS = (
-    ("R_WB", (3, 3)),
-    ("v_WB", (3,)),
-    ("p_WB", (3,)),
-    ("p_WF", (2, 3)),
-    ("R_WF", (2, 3, 3)),
-    ("gyroscope_bias", (3,)),
-    ("accelerometer_bias", (3,)),
-    ("covariance", (27, 27)),
-)
-
-
-def _places() -> tuple[tuple[str, slice, tuple[int, ...]], ...]:
-    """Says where each field lies behind the four flags, and its shape."""
-    places, start = [], 4
-    for name, shape in _FIELDS:
-        end = start + int(np.prod(shape))
-        places.append((name, slice(start, end), shape))
-        start = end
-    return tuple(places)
-
-
-_PLACES = _places()
-
-
-def pack(estimate: BaseEstimate) -> Vector:
-    """Lays an estimate out as numbers, the discrete state of the System."""
-    flags = [*estimate.standing, *estimate.slips]
-    parts = [getattr(estimate, name).ravel() for name, _ in _FIELDS]
-    return np.concatenate([flags, *parts], dtype=np.float64)
-
-
-def unpack(values: Vector) -> BaseEstimate:
-    """Reads what `pack` wrote."""
-    parts = {name: values[rows].reshape(shape) for name, rows, shape in _PLACES}
-    left, right, slips_left, slips_right = values[:4].tolist()
-    return BaseEstimate(
-        standing=(left > 0.5, right > 0.5),
-        slips=(int(slips_left), int(slips_right)),
-        **parts,
-    )
-
-
-def deviations(estimate: BaseEstimate) -> Vector:
-    """Standard deviations of orientation, velocity and position, about W's axes, (9,).
-
-    The filter's error of velocity and position turns about W's origin with that of the
-    orientation; here each is what it is at the base: rad, m/s, m.
-    """
-    P = estimate.covariance
-    variances = np.empty(9)
-    variances[:3] = np.diag(P[Rows.R, Rows.R])
-    for rows, at in ((Rows.v, estimate.v_WB), (Rows.p, estimate.p_WB)):
-        lever = skew(at)
-        cross = lever @ P[Rows.R, rows]
-        total = P[rows, rows] - cross - cross.T + lever @ P[Rows.R, Rows.R] @ lever.T
-        variances[rows] = np.diag(total)
-    return np.sqrt(np.maximum(variances, 0.0))
 
 
 class _Now(NamedTuple):
@@ -161,10 +106,12 @@ class BaseEstimator(LeafSystem):
     - `state`: estimated positions and velocities of the robot, `lead` after the latest
       sample, (nq + nv,).
     - `deviation`: standard deviations about W's axes of the base's orientation, rad,
-      velocity, m/s, and position, m, (9,).
-    - `biases`: of the gyroscope, rad/s, and of the accelerometer, m/s^2, (6,).
+      velocity, m/s, and position, m, (9,), when the covariance was last carried on.
+    - `biases`: of the gyroscope, rad/s, and of the accelerometer, m/s^2, (6,), of the
+      last tick.
     - `faults`: how often the left and the right foot was found away from where it
-      stood, no unit, and for how long in all there was no IMU, s, (3,).
+      stood, no unit, and for how long in all there was no IMU, s, (3,), up to the last
+      tick.
 
     An IMU that says nothing for `SILENCE` is taken for dead: from then on the feet
     alone carry the estimate, as those of a base that moves on as it moved, known ill.
@@ -209,6 +156,7 @@ class BaseEstimator(LeafSystem):
         R_WB: Vector = RotationMatrix(quaternion).matrix()
         first = initial_estimate(R_WB, positions[4:7], params)
         self._memory = declare_state(self, pack(first))
+        self._known = declare_state(self, pack_known(first))
         self._read = declare_state(self, np.zeros(17))
         self._imu = self.DeclareVectorInputPort("imu", 7)
         self._joints = self.DeclareVectorInputPort("joints", 2 * self._joints_count)
@@ -220,24 +168,33 @@ class BaseEstimator(LeafSystem):
             self._joints.ticket(),
             self._bearing.ticket(),
             self._footholds.ticket(),
-            self.discrete_state_ticket(DiscreteStateIndex(self._memory)),
-            self.discrete_state_ticket(DiscreteStateIndex(self._read)),
+            *(
+                self.discrete_state_ticket(DiscreteStateIndex(group))
+                for group in (self._memory, self._known, self._read)
+            ),
         }
         self._now = declare_cached(self, "now", self._calc_now, inputs)
-        for name, size, calc in (
-            ("state", plant.num_multibody_states(), self._calc_state),
-            ("deviation", 9, self._calc_deviation),
-            ("biases", 6, self._calc_biases),
-            ("faults", 3, self._calc_faults),
-        ):
-            self.DeclareVectorOutputPort(
-                name, size, timed(self, calc), prerequisites_of_calc=inputs
+        self.DeclareVectorOutputPort(
+            "state",
+            plant.num_multibody_states(),
+            timed(self, self._calc_state),
+            prerequisites_of_calc=inputs,
+        )
+        self._deviation, self._biases, self._faults = (
+            declare_state_output(self, name, value)
+            for name, value in (
+                ("deviation", deviations(first)),
+                ("biases", np.zeros(6)),
+                ("faults", np.zeros(3)),
             )
+        )
         self.DeclarePeriodicDiscreteUpdateEvent(period, 0.0, timed(self, self._update))
 
     def _calc_now(self, context: Context) -> _Now:
         read = read_state(context, self._read)
-        estimate = unpack(read_state(context, self._memory))
+        estimate = unpack(
+            read_state(context, self._memory), read_state(context, self._known)
+        )
         integrals = eval_vector(self._imu, context)
         duration = integrals[0] - read[0]
         silent, was_silent = read[13:15].tolist()
@@ -257,11 +214,14 @@ class BaseEstimator(LeafSystem):
                 context, estimate, integrals, borne, silent, was_silent
             )
         rate, force = ((integrals[1:] - read[1:7]) / duration).reshape(2, 3)
-        speeds = eval_vector(self._joints, context)[self._joints_count :]
-        still = np.abs(speeds).max() < self._params.rest_speed
+        joints = eval_vector(self._joints, context)
+        still = np.abs(joints[self._joints_count :]).max() < self._params.rest_speed
         model = self._resting if still else self._moving
+        before = self._resting if estimate.at_rest else self._moving
+        if model is not before:
+            estimate = carried(estimate, before)
         estimate = propagate(estimate, rate, force, duration, model)
-        estimate, borne = self._hold_feet(context, estimate, borne, model)
+        estimate, borne = self._hold_feet(context, joints, estimate, borne, model)
         acceleration = estimate.R_WB @ (force - estimate.accelerometer_bias)
         acceleration[2] -= self._gravity
         rate = rate - estimate.gyroscope_bias
@@ -286,7 +246,8 @@ class BaseEstimator(LeafSystem):
             self._period,
             self._blind,
         )
-        estimate, borne = self._hold_feet(context, estimate, borne, self._blind)
+        joints = eval_vector(self._joints, context)
+        estimate, borne = self._hold_feet(context, joints, estimate, borne, self._blind)
         rate = log_rotation(before.T @ estimate.R_WB) / self._period
         was_silent += self._period
         return _Now(estimate, integrals, rate, np.zeros(3), borne, silent, was_silent)
@@ -294,6 +255,7 @@ class BaseEstimator(LeafSystem):
     def _hold_feet(
         self,
         context: Context,
+        joints: Vector,
         estimate: BaseEstimate,
         borne: Vector,
         model: FilterModel,
@@ -302,6 +264,7 @@ class BaseEstimator(LeafSystem):
 
         Args:
             context: of this System.
+            joints: what the port of that name says.
             estimate: carried on to now.
             borne: for how long each foot has borne load, or `LAID`, (2,).
             model: noise of the feet.
@@ -309,7 +272,9 @@ class BaseEstimator(LeafSystem):
         params, slips = self._params, estimate.slips
         left, right = eval_vector(self._bearing, context).tolist()
         bearing = (left > 0.5, right > 0.5)
-        estimate = hold_feet(estimate, self._foot_poses(context), bearing, model)
+        estimate = hold_feet(
+            estimate, self._foot_poses(context, joints), bearing, model
+        )
         borne = borne.copy()
         for i in range(2):
             if not bearing[i] or estimate.slips[i] != slips[i]:
@@ -319,7 +284,7 @@ class BaseEstimator(LeafSystem):
                 plane = eval_vector(self._footholds, context)[4 * i : 4 * i + 4]
                 if borne[i] >= params.foothold_time and plane.any():
                     estimate = stand_on(
-                        estimate,
+                        carried(estimate, model),
                         i,
                         plane[:3],
                         float(plane[3]),
@@ -329,10 +294,11 @@ class BaseEstimator(LeafSystem):
                     borne[i] = LAID
         return estimate, borne
 
-    def _foot_poses(self, context: Context) -> tuple[FootPose, FootPose]:
+    def _foot_poses(
+        self, context: Context, joints: Vector
+    ) -> tuple[FootPose, FootPose]:
         scratch = self._scratch(context)
-        joints = eval_vector(self._joints, context)[: self._joints_count]
-        q: Vector = np.concatenate([self._level, joints])
+        q: Vector = np.concatenate([self._level, joints[: self._joints_count]])
         self._plant.SetPositions(scratch, q)
         left, right = (
             _foot_pose(foot.EvalPoseInWorld(scratch), self._p_AF) for foot in self._feet
@@ -358,18 +324,6 @@ class BaseEstimator(LeafSystem):
         )
         set_vector(output, state)
 
-    def _calc_deviation(self, context: Context, output: BasicVector) -> None:
-        set_vector(output, deviations(self._now(context).estimate))
-
-    def _calc_biases(self, context: Context, output: BasicVector) -> None:
-        estimate = self._now(context).estimate
-        biases = [estimate.gyroscope_bias, estimate.accelerometer_bias]
-        set_vector(output, np.concatenate(biases))
-
-    def _calc_faults(self, context: Context, output: BasicVector) -> None:
-        now = self._now(context)
-        set_vector(output, np.array([*now.estimate.slips, now.was_silent]))
-
     def _update(self, context: Context, discrete: DiscreteValues) -> None:
         now = self._now(context)
         before = read_state(context, self._read)
@@ -384,8 +338,17 @@ class BaseEstimator(LeafSystem):
                 now.borne,
             ]
         )
-        set_state(discrete, self._memory, pack(now.estimate))
+        estimate = now.estimate
+        set_state(discrete, self._memory, pack(estimate))
         set_state(discrete, self._read, read)
+        biases = [estimate.gyroscope_bias, estimate.accelerometer_bias]
+        set_state(discrete, self._biases, np.concatenate(biases))
+        if estimate.ticks == 0:
+            set_state(discrete, self._known, pack_known(estimate))
+            set_state(discrete, self._deviation, deviations(estimate))
+        faults = (*estimate.slips, now.was_silent)
+        if estimate.ticks == 0 or now.was_silent > 0.0:
+            set_state(discrete, self._faults, np.array(faults))
 
 
 def _foot_pose(X_BA: object, p_AF: Vector) -> FootPose:

@@ -68,6 +68,8 @@ class FilterParams(Parameters):
     slip_gate: float = number(50.0, above=0.0)
     """Squared Mahalanobis distance of a foot's innovation (6 numbers) beyond which it
     is not where it stood: it slipped or rolled, and stands anew where it is."""
+    gain_time: float = number(0.04, "s", least=0.0, most=0.1)
+    """So long a gain is kept while the same feet bear, s; 0 computes it every tick."""
     foothold: float = number(2e-3, "m", above=0.0)
     """Of a sole from the ground that it lies on, as its place is known, m."""
     foothold_time: float = number(0.1, "s", least=0.0)
@@ -96,8 +98,12 @@ class FilterModel(NamedTuple):
     foot: Vector
     """Variances of a sole seen from the base, position then turn, (6,)."""
     slip_gate: float
+    gain_time: float
+    """s; a tick's rounding below the parameter."""
     gravity: float
     """m/s^2."""
+    at_rest: bool
+    """Whether it is of a robot of which no joint moves."""
 
 
 def filter_model(
@@ -125,5 +131,7 @@ def filter_model(
         wander,
         np.repeat([params.foot_position**2, foot_turn**2], 3),
         params.slip_gate,
+        params.gain_time - 1e-6,
         gravity,
+        at_rest,
     )

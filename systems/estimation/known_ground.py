@@ -8,8 +8,9 @@ across it is known, whatever the legs say.
 import numpy as np
 
 from footfall.models.values.vector import Vector
+from footfall.systems.estimation.base_estimate import BaseEstimate
 from footfall.systems.estimation.filter_params import SIZE, Rows
-from footfall.systems.estimation.invariant_ekf import BaseEstimate, shifted
+from footfall.systems.estimation.invariant_ekf import shifted
 
 
 def stand_on(

@@ -27,7 +27,7 @@ from footfall.models.values.room import DepthImage, Environment
 from footfall.models.values.vector import Vector
 from footfall.systems.perception.depth_cloud import point_cloud
 from footfall.systems.perception.obstacles.obstacles import find_obstacles
-from footfall.systems.perception.planes.staircase_merging import merge_staircase
+from footfall.systems.perception.staircases.staircase_merging import merge_staircase
 from footfall.systems.planning.executive.path_executive import blocking_box
 from footfall.systems.planning.motion.motion_choice import Mode
 from footfall.systems.planning.motion.motion_stop import stop_early

@@ -45,14 +45,14 @@ from footfall.systems.perception.obstacles.obstacle_finder import ObstacleFinder
 from footfall.systems.perception.obstacles.obstacles import ObstacleFinderParams
 from footfall.systems.perception.planes.plane_segmenter import PlaneSegmenter
 from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterParams
-from footfall.systems.perception.planes.staircase_map import StaircaseMap
-from footfall.systems.perception.planes.staircase_merging import StaircaseMapParams
 from footfall.systems.perception.room.floor import FloorParams
 from footfall.systems.perception.room.floor_extractor import FloorExtractor
 from footfall.systems.perception.scan_assembler import (
     ScanAssembler,
     ScanAssemblerParams,
 )
+from footfall.systems.perception.staircases.staircase_map import StaircaseMap
+from footfall.systems.perception.staircases.staircase_merging import StaircaseMapParams
 from footfall.systems.planning.crossing.params import CrossingParams, HighCrossingParams
 from footfall.systems.planning.motion.motion_params import MotionPlannerParams
 from footfall.systems.planning.motion.motion_planner import MotionPlanner

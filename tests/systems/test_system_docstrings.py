@@ -42,13 +42,13 @@ from footfall.systems.perception.depth_cloud import DepthCloud, DepthCloudParams
 from footfall.systems.perception.obstacles.obstacle_clusterer import ObstacleClusterer
 from footfall.systems.perception.obstacles.obstacle_finder import ObstacleFinder
 from footfall.systems.perception.planes.plane_segmenter import PlaneSegmenter
-from footfall.systems.perception.planes.staircase_map import StaircaseMap
 from footfall.systems.perception.room.environment_exchange import EnvironmentExchange
 from footfall.systems.perception.room.floor_extractor import FloorExtractor
 from footfall.systems.perception.scan_assembler import (
     ScanAssembler,
     ScanAssemblerParams,
 )
+from footfall.systems.perception.staircases.staircase_map import StaircaseMap
 from footfall.systems.planning.crossing.crossing_planner import CrossingPlanner
 from footfall.systems.planning.crossing.params import CrossingParams
 from footfall.systems.planning.executive.executive import Executive, ExecutiveParams

@@ -17,12 +17,15 @@ from footfall.systems.perception.planes.planes import Patch
 from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterParams
 from footfall.systems.perception.planes.stair_chain import (
     floor_below,
-    is_landing,
+    is_top,
     is_turned,
-    landing_candidates,
-    largest_size_cluster,
     longest_chain,
     split_at_turns,
+)
+from footfall.systems.perception.planes.tread_candidates import (
+    is_landing,
+    landing_candidates,
+    largest_size_cluster,
     tread_candidates,
 )
 from footfall.systems.perception.planes.treads import (
@@ -200,6 +203,8 @@ def _settle(
         # Of a flight the treads lean alike; a lone plane that leans is a block.
         return None
     landings = [is_landing(patch, limits) for patch in flight]
+    if len(flight) > 1 and is_top(flight[-2], flight[-1], limits):
+        landings[-1] = True
     straight = [patch for patch, wide in zip(flight, landings, strict=True) if not wide]
     if any(is_turned(a, b, limits) for a, b in pairwise(straight)):
         if any(patch.area < LONE_AREA for patch in flight):
@@ -208,12 +213,15 @@ def _settle(
         return Flight(chosen, 0.0, [], floor, winding=True)
     yaw, treads = refine_treads(flight, cloud, viewpoint, landings, sampling)
     if len(treads) > 1 and not treads[-1].ends and not landings[-1]:
-        # What the view cuts off is a part of a tread, or, where it is deeper than the
-        # others, the floor above them. Of a landing it does not matter.
+        # What the view cuts off is a part of a tread or, where it is deeper than the
+        # others, the floor above, which ends the flight as a tread does: but not for
+        # one who stands on it and looks down. Of a landing it does not matter.
         depths = [float(tread.high[0] - tread.low[0]) for tread in treads]
         usual = float(np.median(np.array(depths[:-1])[np.logical_not(landings[:-1])]))
         deeper = depths[-1] > (1.0 + limits.depth_tolerance) * usual
-        if deeper and viewpoint is None:
+        if deeper and viewpoint is not None:
+            deeper = float((viewpoint @ stair_rotation(yaw))[0]) > treads[-1].low[0]
+        elif deeper:
             deeper = not is_something_behind(treads[-1], cloud @ stair_rotation(yaw))
         if deeper or depths[-1] < limits.min_part * usual:
             chosen, treads = chosen[:-1], treads[:-1]

@@ -38,7 +38,6 @@ from footfall.systems.perception.planes.segments import (
     tread_segment,
     winding_segments,
 )
-from footfall.systems.perception.planes.stair_chain import join_parts
 from footfall.systems.perception.planes.supervoxel_planes import (
     DOWN,
     LevelVoxels,
@@ -58,6 +57,7 @@ from footfall.systems.perception.planes.surfaces import (
     cut_columns,
     level_noise,
 )
+from footfall.systems.perception.planes.tread_candidates import join_parts
 from footfall.systems.perception.planes.voxels import (
     MAX_SPARSE,
     cloud_origin,

@@ -12,7 +12,7 @@ from footfall.models.values.validation import (
     choice,
     number,
 )
-from footfall.systems.perception.planes.stair_chain import StairLimits
+from footfall.systems.perception.planes.tread_candidates import StairLimits
 
 
 @dataclass(kw_only=True)

@@ -16,6 +16,11 @@ from footfall.models.values.vector import Vector
 from footfall.systems.balance.zmp_preview import GRAVITY, rest_state
 from footfall.systems.balance.zmp_tracking import generate_varying_height, height_factor
 from footfall.systems.planning.footsteps.footstep_planner import pose_from_xyz_rpy
+from footfall.systems.planning.motion.leg_reach import (
+    STRIDE,
+    height_excess,
+    step_drops,
+)
 from footfall.systems.planning.motion.motion_filter import follow_with_whole_body
 from footfall.systems.planning.motion.motion_params import MotionPlannerParams
 from footfall.systems.planning.motion.motion_task import MotionTask, Walker
@@ -38,6 +43,10 @@ from footfall.systems.planning.motion.thigh_clearance import (
 )
 from footfall.systems.planning.motion.toe_off import heading, lift_heel, toe_off_pitch
 
+REPAIRS = 2
+"""How often a motion whose knees are stretched is planned anew, lower."""
+TOLERANCE = 1e-3
+"""So much higher than the knees are to be bent for, m, a motion may be."""
 LEVEL = 0.03
 """Heights this near each other are the same level, m."""
 
@@ -94,18 +103,30 @@ def plan_motion(task: MotionTask, walker: Walker) -> MotionPlan:
     time: Vector = np.arange(n, dtype=np.float64) * params.period
     final = final_feet(feet, steps)
     zmp = _zmp_reference(time, steps, feet, final, com, end, params)
-    height = _com_height(time, steps, com[2], final, end, params)
-    rate = np.gradient(height, params.period)
-    acceleration = np.gradient(rate, params.period)
-    factor = height_factor(height, zmp[:, 2], acceleration)
     weight = zmp_weight(time, end, params)
-    motion = generate_varying_height(
-        zmp[:, :2], factor, preview, rest_state(com[:2]), weight
-    )
+    drops = (0.0,) * len(steps)
+    for _ in range(1 + REPAIRS):
+        height = _com_height(time, steps, com[2], final, end, drops, params)
+        rate = np.gradient(height, params.period)
+        acceleration = np.gradient(rate, params.period)
+        factor = height_factor(height, zmp[:, 2], acceleration)
+        motion = generate_varying_height(
+            zmp[:, :2], factor, preview, rest_state(com[:2]), weight
+        )
+        path = np.column_stack([motion.com, height])
+        poses, contacts, lengths = _feet(time, steps, path, task, walker)
+        waist = _waist(time, steps, poses, end, params)
+        if body is None or not steps:
+            break
+        rows = slice(None, None, STRIDE)
+        excess = height_excess(
+            body, path[rows], waist[rows], poses[rows], params.knee_margin
+        )
+        if excess.max() < TOLERANCE:
+            break
+        more = step_drops(time[rows], excess, steps)
+        drops = tuple(np.add(drops, more).tolist())
     zmp[:, :2] = motion.zmp
-    path = np.column_stack([motion.com, height])
-    poses, contacts, lengths = _feet(time, steps, path, task, walker)
-    waist = _waist(time, steps, poses, end, params)
     if body is not None and steps:
         motion = follow_with_whole_body(
             motion, zmp, height, factor, weight, waist, poses, body, preview
@@ -155,14 +176,18 @@ def _com_height(
     start: float,
     final: Vector,
     end: float,
+    drops: tuple[float, ...],
     params: MotionPlannerParams,
 ) -> Vector:
-    """Each rise begins when a foot has landed and is over before the next one does."""
+    """Each rise begins when a foot has landed and is over before the next one does.
+
+    By `drops`, m, the CoM is lower while the legs make each of the steps.
+    """
     height = np.full(len(time), start)
     level = start
     begin = 0.0
     for i, step in enumerate(steps):
-        target = step.stance[2] + params.com_height
+        target = step.stance[2] + params.com_height - drops[i]
         finish = step.lift
         if i > 0:
             finish += params.rise_end * (step.land - step.lift)

@@ -38,6 +38,9 @@ class MotionPlannerParams(Parameters):
     )
     """CoM above the ground at mid-stance, m. Higher stretches the knees, lower loads
     them: at 0.80 m level walking needs 100 Nm at the knee, at 0.85 m 60 Nm."""
+    knee_margin: float = number(0.15, "rad", least=0.0, most=1.0)
+    """How much more than its limit every knee stays bent, rad; the CoM goes as much
+    lower as that takes."""
     swing: SwingParams = field(
         default_factory=lambda: SwingParams(
             apex_clearance=0.05, edge_clearance=0.03, retraction=0.01

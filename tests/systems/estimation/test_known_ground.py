@@ -4,14 +4,13 @@ import numpy as np
 import pytest
 
 from footfall.models.values.vector import Vector
-from footfall.systems.estimation.filter_params import FilterParams, filter_model
-from footfall.systems.estimation.invariant_ekf import (
+from footfall.systems.estimation.base_estimate import (
     BaseEstimate,
     FootPose,
-    hold_feet,
     initial_estimate,
-    propagate,
 )
+from footfall.systems.estimation.filter_params import FilterParams, filter_model
+from footfall.systems.estimation.invariant_ekf import hold_feet, propagate
 from footfall.systems.estimation.known_ground import stand_on
 from footfall.systems.estimation.rotations import exp_rotation
 

@@ -20,18 +20,18 @@ from footfall.systems.perception.planes.levels import Sampling
 from footfall.systems.perception.planes.plane_segmentation import segment_planes
 from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterParams
 from footfall.systems.perception.planes.segments import tread_segment
-from footfall.systems.perception.planes.stair_chain import StairLimits
-from footfall.systems.perception.planes.staircase_merging import (
-    StaircaseMapParams,
-    leave_partial,
-)
 from footfall.systems.perception.planes.supervoxel_planes import (
     LevelVoxels,
     bound_planes,
     cluster_level,
     fit_planes,
 )
+from footfall.systems.perception.planes.tread_candidates import StairLimits
 from footfall.systems.perception.planes.voxels import adjacent_voxels, voxelize
+from footfall.systems.perception.staircases.staircase_merging import (
+    StaircaseMapParams,
+    leave_partial,
+)
 
 Scan = Callable[..., Vector]
 GRAVITY = np.array([0.0, 0.0, -9.81])
@@ -169,6 +169,27 @@ def test_landing_goes_on_with_the_flight(scan: Scan, stair_scene: Any) -> None:
     check_treads(cut, scene, [0, 1])
     heights = [float(p.X_WR.translation()[2]) for p in cut.planes]
     assert min(abs(height - 0.51) for height in heights) < 0.005
+
+
+@pytest.mark.parametrize("width", [0.5, 0.8, 1.2])
+@pytest.mark.parametrize("depth", [0.32, 0.4, 0.5, 0.62, 0.8, 1.5, 3.0])
+def test_a_floor_above_ends_the_flight(
+    scan: Scan, stair_scene: Any, depth: float, width: float
+) -> None:
+    """However deep it is beside the treads, and which of its sides is the longer."""
+    scene = stair_scene(steps=2, rise=0.17, run=0.27, width=width, landing=depth)
+    eye = scene.sensor()
+    cloud = scan(scene, eye, tilt=(20.0, 80.0))
+    found, _ = segment_planes(cloud, GRAVITY, PARAMS, SOLE, eye)
+    *treads, top = found.staircase.treads
+    staircase = replace(found.staircase, treads=tuple(treads))
+    check_treads(replace(found, staircase=staircase), scene, [0, 1])
+    corners = top.corners() @ scene.rotation()
+    assert np.abs(corners[:, 2] - 0.51).max() < 0.005
+    front = scene.tread_corners(1)[2] @ scene.rotation()
+    assert np.abs(corners[[0, 3], 0] - front[0]).max() < 0.01
+    assert 0.3 < top.size[0] < depth + 0.01
+    assert top.size[1] == pytest.approx(width, abs=0.02)
 
 
 def test_a_flight_goes_on_behind_a_landing(scan: Scan, stair_scene: Any) -> None:

@@ -9,7 +9,7 @@ from footfall.systems.planning.motion.motion_params import MotionPlannerParams
 
 ZERO_ALLOWED = {
     *("zmp_forward", "climb_zmp_forward", "zmp_inward", "lean", "max_toe_off"),
-    *("toe_off_start", "climb_inward", "climb_roll"),
+    *("toe_off_start", "climb_inward", "climb_roll", "knee_margin"),
 }
 # A sole's middle may lie behind its ankle.
 SIGNED = {"zmp_forward", "climb_zmp_forward"}

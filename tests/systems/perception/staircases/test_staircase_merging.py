@@ -13,7 +13,7 @@ from footfall.models.values.perceived import PlaneSegment, PlaneSegmentation, St
 from footfall.models.values.vector import Vector
 from footfall.systems.perception.planes.plane_segmentation import segment_planes
 from footfall.systems.perception.planes.segmenter_params import PlaneSegmenterParams
-from footfall.systems.perception.planes.staircase_merging import (
+from footfall.systems.perception.staircases.staircase_merging import (
     StaircaseMapParams,
     merge_staircase,
 )
@@ -151,15 +151,12 @@ def test_what_is_not_on_the_flight_is_not_added(stray: PlaneSegment) -> None:
     assert merge_staircase(known, seen(stray), PARAMS) == known
 
 
-@pytest.mark.parametrize(("depth", "added"), [(0.42, 0), (0.9, 1), (2.6, 0)])
-def test_a_landing_is_added_and_what_is_between_is_not(
-    depth: float, added: int
-) -> None:
-    """What is deeper than the known treads, or than any landing, is neither."""
+@pytest.mark.parametrize("depth", [0.42, 0.9, 2.6])
+def test_a_landing_or_a_floor_above_is_added(depth: float) -> None:
+    """However deep it is: the flight leads up to it."""
     known = Staircase((tread(0), tread(1)), FLOOR)
-    landing = tread(2, x=(2 * RUN, 2 * RUN + depth))
-    merged = merge_staircase(known, seen(landing), PARAMS)
-    assert merged.treads == (*known.treads, landing)[: 2 + added]
+    top = tread(2, x=(2 * RUN, 2 * RUN + depth))
+    assert merge_staircase(known, seen(top), PARAMS).treads == (*known.treads, top)
 
 
 def test_floor_is_found_later() -> None:

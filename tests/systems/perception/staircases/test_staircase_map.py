@@ -8,7 +8,7 @@ from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import Context, DiagramBuilder, LeafSystem
 
 from footfall.models.values.perceived import PlaneSegment, PlaneSegmentation, Staircase
-from footfall.systems.perception.planes.staircase_map import StaircaseMap
+from footfall.systems.perception.staircases.staircase_map import StaircaseMap
 from footfall.systems.ports import eval_abstract, eval_vector
 
 

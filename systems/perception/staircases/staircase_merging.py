@@ -35,9 +35,6 @@ class StaircaseMapParams(Parameters):
     """Least overlap of two rectangles of one tread, as part of the smaller one."""
     max_turn: float = number(0.2, "rad", above=0.0)
     """Most that the directions of two views of one staircase differ, rad."""
-    depth_tolerance: float = number(0.3, above=0.0)
-    """How much deeper than the deepest known tread a new one may be, as a part of it:
-    what is deeper is a landing. One that is seen in part may well be less deep."""
     partial_depth: float = number(0.06, least=0.0, most=1.0)
     """How much less deep than the others a last tread whose back was not seen may be,
     as a part of their depth: of a smaller part one waits to see the rest."""
@@ -45,8 +42,6 @@ class StaircaseMapParams(Parameters):
     """A part of a tread as deep as this is one to stand on, m: a sole and margins."""
     min_landing: float = number(0.45, "m", above=0.0)
     """Least depth of a landing, m."""
-    max_landing: float = number(2.5, "m", above=0.0)
-    """Largest depth of a landing, m: what is deeper is a floor."""
     period: float = number(0.025, "s", least=1e-3, most=10.0)
     """How often the map looks for a new sweep, s: the time of one scan line."""
 
@@ -236,11 +231,6 @@ def _continues(
     treads: list[PlaneSegment], seen: PlaneSegment, params: StaircaseMapParams
 ) -> bool:
     """Tests whether `seen` continues the flight: higher, farther, in line."""
-    depths = [float(tread.size[0]) for tread in treads]
-    usual = [depth for depth in depths if depth < params.min_landing] or depths
-    a_tread = seen.size[0] <= (1.0 + params.depth_tolerance) * max(usual)
-    if not a_tread and not params.min_landing <= seen.size[0] <= params.max_landing:
-        return False
     for tread in treads:
         p_R: Vector = tread.X_WR.inverse().multiply(seen.X_WR.translation())
         climbs = p_R[2] > params.height_tolerance and p_R[0] > 0.0

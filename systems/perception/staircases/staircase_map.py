@@ -15,7 +15,7 @@ from pydrake.systems.framework import (
 from footfall.models.values.perceived import PlaneSegmentation, Staircase
 from footfall.models.values.validation import require_at_least
 from footfall.systems.held_value import HeldValue
-from footfall.systems.perception.planes.staircase_merging import (
+from footfall.systems.perception.staircases.staircase_merging import (
     StaircaseMapParams,
     merge_staircase,
 )

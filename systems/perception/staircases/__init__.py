@@ -1,0 +1,1 @@
+"""What is known of a staircase after several scans."""
