@@ -1,6 +1,7 @@
-"""Lands feet along splines and along polynomials in physics, and writes what they feel.
+"""Reads of a sweep's runs what feet feel that land along splines and polynomials.
 
-    python tests/studies/land_feet.py --out tests/studies/land_feet.md
+    footfall sweep tests/studies/land_feet.yaml
+    python tests/studies/land_feet.py sweeps/land_feet --out result.md
 
 The obstacle paper's comparison (Sec. III-B: 1200 N against 625 N). Both trajectories
 have the same highest point, over an obstacle of 5 cm that both clear; at the paper's
@@ -9,22 +10,22 @@ adaptor's compensation of the legs' sag, which the paper's robot does not have.
 """
 
 import argparse
-import itertools
-import tempfile
 from pathlib import Path
 
 import numpy as np
 
-from footfall.diagrams.closed_loop.tasks import build_task
-from footfall.diagrams.scenario import load_scenario
 from footfall.diagrams.signals import Run, load_run
-from footfall.diagrams.simulation import run_task
-from footfall.systems.planning.crossing.foot_trajectory_generator import PROFILES
+from footfall.diagrams.sweep.runner import RUNS_FOLDER
+from footfall.diagrams.sweep.sampling import jobs_of
+from footfall.diagrams.sweep.sweep_folder import SweepFolder, load_sweep
+from footfall.diagrams.sweep.table import table_row
 
 WINDOW = 0.05
 """After touch-down a force counts as impact for this long, s."""
 TOUCH = 20.0
 """Force that is a touch-down, N."""
+WEIGHT = 62.4 * 9.81
+"""Of JVRC-1, N."""
 HIGH = 0.15
 """Feet that were lifted this high have crossed, m."""
 COLUMNS = (
@@ -62,39 +63,31 @@ def landings(run: Run) -> list[tuple[float, float]]:
     return [(v, f) for _, v, f in sorted(found)]
 
 
+def felt(found: SweepFolder) -> list[str]:
+    """Writes what every run of a sweep felt, a row each."""
+    lines = [table_row(COLUMNS), "|" + "---|" * len(COLUMNS)]
+    for job, outcome in zip(jobs_of(found.sweep), found.table["outcome"], strict=True):
+        support, gain, profile = (value for _, value in job.values)
+        run = load_run(found.folder / RUNS_FOLDER / f"{job.number:05d}")
+        landed = landings(run)
+        shown = (
+            ", ".join(f"{v:.3f}" for v, _ in landed),
+            ", ".join(f"{f:.0f}" for _, f in landed),
+            ", ".join(f"{f / WEIGHT:.2f}" for _, f in landed),
+        )
+        row = (profile, support, "yes" if gain else "no", outcome, *shown)
+        lines.append(table_row(row))
+    return lines
+
+
 def main() -> None:
-    """Runs all combinations and writes a table."""
+    """Writes the table of a sweep of landings."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--out", type=Path, default=Path("land_feet.md"))
-    path = parser.parse_args().out
-    lines = ["| " + " | ".join(COLUMNS) + " |", "|" + "---|" * len(COLUMNS)]
-    for support, gain, profile in itertools.product((1.3, 0.78), (15.0, 0.0), PROFILES):
-        scenario = load_scenario(
-            "obstacle-15cm",
-            [
-                "sensors.lidar.tilt_step_deg=0.5",
-                "scene.boxes[0].size=[0.05, 1.2, 0.05]",
-                "parameters.crossing.feet.apex=0.15",
-                "parameters.crossing.min_gap=0.02",
-                f"parameters.crossing.feet.profile={profile}",
-                f"parameters.crossing.single_support={support}",
-                f"parameters.landing.swing_gain={gain}",
-            ],
-        )
-        with tempfile.TemporaryDirectory() as folder:
-            summary = run_task(
-                build_task(scenario), scenario, Path(folder) / "run"
-            ).to_json()
-            felt = landings(load_run(Path(folder) / "run"))
-        weight = 62.4 * 9.81
-        lines.append(
-            f"| {profile} | {support:g} | {'yes' if gain else 'no'} | "
-            f"{summary['outcome']} | {', '.join(f'{v:.3f}' for v, _ in felt)} | "
-            f"{', '.join(f'{f:.0f}' for _, f in felt)} | "
-            f"{', '.join(f'{f / weight:.2f}' for _, f in felt)} |"
-        )
-        print(lines[-1], flush=True)
-        path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    parser.add_argument("sweep", type=Path, help="the sweep's folder")
+    parser.add_argument("--out", type=Path, required=True, help="Markdown file")
+    arguments = parser.parse_args()
+    lines = felt(load_sweep(arguments.sweep))
+    arguments.out.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":
