@@ -1,6 +1,7 @@
 """What every task shares: from a motion plan to torques, in balance."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from pydrake.systems.framework import System
 
@@ -54,6 +55,10 @@ def _makers(setup: Setup) -> dict[str, Callable[[], System]]:
     params, robot, model, stand = setup.params, setup.robot, setup.model, setup.stand
     sole = robot.sole
     horizon = preview_gains(params.zmp_preview).horizon
+    landing = params.landing
+    if setup.mode == "quasi_static":
+        # The plan waits for the foot: it may come down as gently as it can.
+        landing = replace(landing, search_start=0.0)
     mass = model.CalcTotalMass(model.CreateDefaultContext())
     return {
         "zmp_preview": lambda: ZmpPreviewController(
@@ -61,9 +66,7 @@ def _makers(setup: Setup) -> dict[str, Callable[[], System]]:
         ),
         "motion_player": lambda: MotionPlayer(horizon),
         "com_reference": ComReference,
-        "landing_adaptor": lambda: LandingAdaptor(
-            params.landing, stand.foot_poses.ravel()
-        ),
+        "landing_adaptor": lambda: LandingAdaptor(landing, stand.foot_poses.ravel()),
         "ik_tracker": lambda: IkTracker(model, robot, params.ik, stand.positions),
         "feedforward": lambda: WholeBodyFeedforward(model, robot, MAX_ACCELERATION),
         "stabilizer": lambda: Stabilizer(

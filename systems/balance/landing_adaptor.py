@@ -34,7 +34,8 @@ class LandingParams(Parameters):
     """Speed at which a foot that missed the ground goes on down, m/s."""
     search_start: float = number(0.03, "m/s", least=0.0, most=1.0)
     """Speed with which a foot that came to rest over the ground begins to look for it,
-    m/s: that with which walking feet land."""
+    m/s: that with which walking feet land. Quasi-static motions wait for the foot and
+    take 0."""
     search_acceleration: float = number(0.5, "m/s^2", above=0.0)
     """How fast it takes that speed up, m/s^2: most ground is missed by less than a
     millimetre, and a leg that is heavy by its gears strikes it."""
