@@ -23,6 +23,7 @@ from footfall.systems.perception.planes.stair_chain import (
     split_at_turns,
 )
 from footfall.systems.perception.planes.tread_candidates import (
+    StairLimits,
     is_landing,
     landing_candidates,
     largest_size_cluster,
@@ -40,6 +41,8 @@ LONE_TRIES = 4
 """Planes that are tried as a lone tread, the lowest first."""
 LONE_AREA = 0.06
 """Least area of a lone or winding tread that was seen, m^2: of two soles."""
+LIKE_RISE = 1.6
+"""Most that a landing or a floor rises above the last tread, of what treads rise."""
 RISE_NOISE = 0.01
 """Most that a rise may be off by noise, m."""
 MIN_SEEN = 0.5
@@ -185,6 +188,24 @@ def is_tread(
     return bool(seen >= MIN_SEEN * depth * width)
 
 
+def is_too_high(flight: list[Patch]) -> bool:
+    """Tells whether the last patch stands over the treads as a table at their end does.
+
+    Args:
+        flight: the patches, lowest first.
+    """
+    rises = np.diff([float(patch.center[2]) for patch in flight])
+    return bool(len(rises) > 1 and rises[-1] > LIKE_RISE * rises[:-1].max())
+
+
+def _is_alone(treads: list[Tread], limits: StairLimits) -> bool:
+    """Tells whether there is one tread, but for a deeper plane that it leads up to."""
+    depths = [float(tread.high[0] - tread.low[0]) for tread in treads]
+    return len(depths) == 1 or (
+        len(depths) == 2 and depths[1] > (1.0 + limits.depth_tolerance) * depths[0]
+    )
+
+
 def _settle(
     chosen: list[int],
     patches: tuple[Patch, ...],
@@ -205,6 +226,8 @@ def _settle(
     landings = [is_landing(patch, limits) for patch in flight]
     if len(flight) > 1 and is_top(flight[-2], flight[-1], limits):
         landings[-1] = True
+    if landings[-1] and is_too_high(flight):
+        chosen, flight, landings = chosen[:-1], flight[:-1], landings[:-1]
     straight = [patch for patch, wide in zip(flight, landings, strict=True) if not wide]
     if any(is_turned(a, b, limits) for a, b in pairwise(straight)):
         if any(patch.area < LONE_AREA for patch in flight):
@@ -236,7 +259,7 @@ def _settle(
         if len(treads) < 2:
             return None
         return Flight(chosen[1:], yaw, treads[1:], chosen[0])
-    highest = limits.max_lone_rise if len(treads) == 1 else limits.max_rise
+    highest = limits.max_lone_rise if _is_alone(treads, limits) else limits.max_rise
     if treads[0].drop > highest + RISE_NOISE:
         return None
     return Flight(chosen, yaw, treads, floor_below(patches, chosen, limits))

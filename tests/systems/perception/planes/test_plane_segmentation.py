@@ -192,6 +192,39 @@ def test_a_floor_above_ends_the_flight(
     assert top.size[1] == pytest.approx(width, abs=0.02)
 
 
+def test_a_table_at_the_end_of_a_flight_is_no_floor_above(
+    scan: Scan, stair_scene: Any
+) -> None:
+    """It begins where two treads of 15 cm end, but 45 cm above the second."""
+    scene = stair_scene(steps=2, rise=0.15, run=0.27, width=0.8)
+    eye = scene.sensor()
+    cloud = scan(scene, eye)
+    rotation, end = scene.rotation(), 2 * 0.27
+    local = cloud @ rotation
+    ahead = (local[:, 0] > end) & (np.abs(local[:, 1]) < 0.8)
+    rng = np.random.default_rng(0)
+    low, high = np.array([end, -0.4, 0.0]), np.array([end + 0.8, 0.4, 0.75])
+    top = rng.uniform([low[0], low[1], high[2]], high, (6000, 3))
+    front = rng.uniform(low, [low[0], high[1], high[2]], (6000, 3))
+    table = np.vstack([top, front]) + rng.normal(0.0, 0.003, (12000, 3))
+    found, _ = segment_planes(
+        np.vstack([cloud[~ahead], table @ rotation.T]), GRAVITY, PARAMS, SOLE, eye
+    )
+    heights = [float(tread.X_WR.translation()[2]) for tread in found.staircase.treads]
+    np.testing.assert_allclose(heights, [0.15, 0.30], atol=0.005)
+    assert any(abs(p.X_WR.translation()[2] - 0.75) < 0.01 for p in found.planes)
+
+
+def test_a_seat_with_a_table_behind_it_is_no_staircase(
+    scan: Scan, stair_scene: Any
+) -> None:
+    """What stands 45 cm high alone is none, whatever deeper plane follows it."""
+    scene = stair_scene(steps=1, rise=0.45, run=0.27, width=0.8, landing=1.0)
+    eye = scene.sensor(distance=0.4)
+    found, _ = segment_planes(scan(scene, eye), GRAVITY, PARAMS, SOLE, eye)
+    assert not found.staircase.treads
+
+
 def test_a_flight_goes_on_behind_a_landing(scan: Scan, stair_scene: Any) -> None:
     """Which may be wider than it is deep; a table beside the flight is none of it."""
     lower = stair_scene(steps=2, rise=0.15, run=0.30, width=1.0, landing=0.9)
