@@ -22,7 +22,7 @@ OBSERVED: Vector = np.vstack(
 """H of both feet's innovations, (12, 27): z = xi_p - xi_d, then xi_R - xi_C."""
 
 
-def transition(estimate: BaseEstimate, duration: float, model: FilterModel) -> Vector:
+def _transition(estimate: BaseEstimate, duration: float, model: FilterModel) -> Vector:
     """How the error goes on, exp(A t), (27, 27), of a time in which it hardly turns."""
     # A = [0 0 0 .. -R 0; [g] 0 0 .. -[v]R -R; 0 I 0 .. -[p]R 0; 0 .. -[d]R 0; ..].
     F = _IDENTITY.copy()
@@ -37,7 +37,7 @@ def transition(estimate: BaseEstimate, duration: float, model: FilterModel) -> V
     return F
 
 
-def process_noise(
+def _process_noise(
     estimate: BaseEstimate, duration: float, model: FilterModel
 ) -> Vector:
     """What the covariance gains in a time, (27, 27)."""
@@ -59,24 +59,30 @@ def _swept(estimate: BaseEstimate) -> Vector:
 
 
 def carried_covariance(
-    estimate: BaseEstimate, model: FilterModel, ticks: int
+    estimate: BaseEstimate, model: FilterModel, corrected: bool
 ) -> Vector:
-    """The covariance after as many ticks with the gain that was kept, (27, 27).
+    """The covariance after the ticks since it was carried on last, (27, 27).
 
-    A tick is P <- L (F P F^T + Q) L^T + K N K^T, L = I - K H.
+    With the gain that was kept, L = I - K H, a tick is
+    P <- L (F P F^T + Q) L^T + K N K^T.
+
+    Args:
+        estimate: carried on to now.
+        model: noise of the ticks.
+        corrected: whether the gain has been applied in the last tick, too; if not its
+            covariance is the predicted one.
     """
     P = estimate.covariance
-    if ticks <= 0:
+    if estimate.ticks <= 0:
         return P
     step = estimate.since / estimate.ticks
+    F, Q = _transition(estimate, step, model), _process_noise(estimate, step, model)
     K = estimate.gain
     kept = _IDENTITY - K @ OBSERVED
-    A = kept @ transition(estimate, step, model)
-    Q = kept @ process_noise(estimate, step, model) @ kept.T
-    Q += (K * np.tile(model.foot, 2)) @ K.T
-    for _ in range(ticks):
-        P = A @ P @ A.T + Q
-    return P
+    A, noise = kept @ F, kept @ Q @ kept.T + (K * np.tile(model.foot, 2)) @ K.T
+    for _ in range(estimate.ticks if corrected else estimate.ticks - 1):
+        P = A @ P @ A.T + noise
+    return P if corrected else F @ P @ F.T + Q
 
 
 def diagonal(matrix: Vector) -> Vector:

@@ -29,8 +29,6 @@ from footfall.systems.estimation.filter_covariance import (
     OF_FOOT,
     carried_covariance,
     diagonal,
-    process_noise,
-    transition,
 )
 from footfall.systems.estimation.filter_params import SIZE, FilterModel, Rows
 from footfall.systems.estimation.rotations import (
@@ -82,7 +80,7 @@ def carried(estimate: BaseEstimate, model: FilterModel) -> BaseEstimate:
         model: noise and gravity since the covariance was last carried on; before
             another one applies this has to be done.
     """
-    covariance = carried_covariance(estimate, model, estimate.ticks)
+    covariance = carried_covariance(estimate, model, corrected=True)
     return estimate._replace(covariance=covariance, ticks=0, since=0.0)
 
 
@@ -124,10 +122,7 @@ def _hold_anew(
     model: FilterModel,
 ) -> BaseEstimate:
     """What `hold_feet` does when a gain is due: from the covariance, carried on."""
-    P = carried_covariance(estimate, model, estimate.ticks - 1)
-    step = estimate.since / max(1, estimate.ticks)
-    F = transition(estimate, step, model)
-    P = F @ P @ F.T + process_noise(estimate, step, model)
+    P = carried_covariance(estimate, model, corrected=False)
     before = estimate.standing
     held = [i for i in range(2) if standing[i] and before[i]]
     kept = estimate.gain
