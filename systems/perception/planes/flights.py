@@ -188,7 +188,7 @@ def is_tread(
     return bool(seen >= MIN_SEEN * depth * width)
 
 
-def is_too_high(flight: list[Patch]) -> bool:
+def _is_too_high(flight: list[Patch]) -> bool:
     """Tells whether the last patch stands over the treads as a table at their end does.
 
     Args:
@@ -226,7 +226,7 @@ def _settle(
     landings = [is_landing(patch, limits) for patch in flight]
     if len(flight) > 1 and is_top(flight[-2], flight[-1], limits):
         landings[-1] = True
-    if landings[-1] and is_too_high(flight):
+    if landings[-1] and _is_too_high(flight):
         chosen, flight, landings = chosen[:-1], flight[:-1], landings[:-1]
     straight = [patch for patch, wide in zip(flight, landings, strict=True) if not wide]
     if any(is_turned(a, b, limits) for a, b in pairwise(straight)):

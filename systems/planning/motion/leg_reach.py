@@ -18,9 +18,6 @@ from footfall.systems.planning.whole_body.whole_body_plan import (
     waist_above_com,
 )
 
-STRIDE = 2
-"""Ticks between the postures that are looked at."""
-
 
 def height_excess(
     body: WholeBody, com: Vector, waist: Vector, feet: Vector, margin: float

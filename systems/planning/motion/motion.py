@@ -16,12 +16,11 @@ from footfall.models.values.vector import Vector
 from footfall.systems.balance.zmp_preview import GRAVITY, rest_state
 from footfall.systems.balance.zmp_tracking import generate_varying_height, height_factor
 from footfall.systems.planning.footsteps.footstep_planner import pose_from_xyz_rpy
-from footfall.systems.planning.motion.leg_reach import (
+from footfall.systems.planning.motion.leg_reach import height_excess, step_drops
+from footfall.systems.planning.motion.motion_filter import (
     STRIDE,
-    height_excess,
-    step_drops,
+    follow_with_whole_body,
 )
-from footfall.systems.planning.motion.motion_filter import follow_with_whole_body
 from footfall.systems.planning.motion.motion_params import MotionPlannerParams
 from footfall.systems.planning.motion.motion_task import MotionTask, Walker
 from footfall.systems.planning.motion.step_timing import (
