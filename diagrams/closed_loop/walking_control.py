@@ -56,7 +56,7 @@ def _makers(setup: Setup) -> dict[str, Callable[[], System]]:
     sole = robot.sole
     horizon = preview_gains(params.zmp_preview).horizon
     landing = params.landing
-    if setup.mode == "quasi_static":
+    if landing.search_start is None and setup.mode == "quasi_static":
         # The plan waits for the foot: it may come down as gently as it can.
         landing = replace(landing, search_start=0.0)
     mass = model.CalcTotalMass(model.CreateDefaultContext())

@@ -20,6 +20,10 @@ from footfall.systems.timing import timed
 _ROLL, _PITCH = 3, 4
 
 
+LANDING_SPEED = 0.03
+"""Gentle for a foot that strikes the ground, m/s."""
+
+
 @dataclass(kw_only=True)
 class LandingParams(Parameters):
     """When a foot counts as landed and how it looks for the ground."""
@@ -32,10 +36,10 @@ class LandingParams(Parameters):
     """After lift-off no touch counts for this long, s: the foot still leaves."""
     search_speed: float = number(0.10, "m/s", above=0.0)
     """Speed at which a foot that missed the ground goes on down, m/s."""
-    search_start: float = number(0.03, "m/s", least=0.0, most=1.0)
+    search_start: float | None = number(None, "m/s", least=0.0, most=1.0)
     """Speed with which a foot that came to rest over the ground begins to look for it,
-    m/s: that with which walking feet land. Quasi-static motions wait for the foot and
-    take 0."""
+    m/s; null for that with which walking feet land, `LANDING_SPEED`, and for 0 where
+    motions are quasi-static: they wait for the foot."""
     search_acceleration: float = number(0.5, "m/s^2", above=0.0)
     """How fast it takes that speed up, m/s^2: most ground is missed by less than a
     millimetre, and a leg that is heavy by its gears strikes it."""
@@ -120,7 +124,8 @@ def adapt(
                 offset + slack, state.offset_rate + slack_rate, params.release_time, h
             )
             slack, slack_rate = np.zeros(6), np.zeros(6)
-            searching = max(params.search_start, -float(rate[2]))
+            start = params.search_start
+            searching = max(LANDING_SPEED if start is None else start, -float(rate[2]))
             due = planned + offset - params.swing_delay * (rate + offset_rate)
             sag = state.sag + params.swing_gain * h * (due - measured)
             sag = np.clip(sag, -params.swing_limit, params.swing_limit)

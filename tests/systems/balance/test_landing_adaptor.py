@@ -1,5 +1,7 @@
 """Touch-down is felt: early, late, never; and what the references do meanwhile."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 from pydrake.systems.analysis import Simulator
@@ -7,6 +9,7 @@ from pydrake.systems.framework import Context
 
 from footfall.models.values.vector import Vector
 from footfall.systems.balance.landing_adaptor import (
+    LANDING_SPEED,
     FootState,
     LandingAdaptor,
     LandingParams,
@@ -29,10 +32,11 @@ def tick(
     contact: bool = True,
     felt: bool = True,
     measured: Vector | None = None,
+    params: LandingParams = PARAMS,
 ) -> tuple[FootState, Vector, Vector]:
     """One tick; a foot is by default where it is planned, on the ground."""
     measured = planned if measured is None else measured
-    return adapt(state, planned, rate, contact, felt, measured, PARAMS)
+    return adapt(state, planned, rate, contact, felt, measured, params)
 
 
 def in_the_air(state: FootState, time: float, **inputs: object) -> FootState:
@@ -120,7 +124,7 @@ def test_late_touch_down_searches_for_the_ground() -> None:
         heights.append(pose[2])
         rates.append(rate[2])
     gain = PARAMS.search_acceleration * T
-    begun = PARAMS.search_start + gain * np.arange(1, 4)
+    begun = LANDING_SPEED + gain * np.arange(1, 4)
     np.testing.assert_allclose(rates[:3], -begun)
     assert rates[-1] == -PARAMS.search_speed
     np.testing.assert_allclose(np.diff(heights), np.array(rates[1:]) * T, atol=1e-12)
@@ -133,6 +137,14 @@ def test_late_touch_down_searches_for_the_ground() -> None:
         state, pose, rate = tick(state, felt=True, measured=lower)
     np.testing.assert_allclose(pose, lower, atol=1e-5)
     np.testing.assert_allclose(rate, STILL, atol=1e-4)
+
+
+def test_a_search_begins_as_fast_as_it_is_set() -> None:
+    """Where a plan waits for the foot it starts from rest."""
+    params = dataclasses.replace(PARAMS, search_start=0.0)
+    state = in_the_air(standing(), 0.5, params=params)
+    _, _, rate = tick(state, felt=False, params=params)
+    assert rate[2] == pytest.approx(-PARAMS.search_acceleration * T)
 
 
 def test_a_foot_that_goes_down_as_it_misses_the_ground_goes_on() -> None:
