@@ -23,7 +23,9 @@ TIMEOUT = 600
 """For one cell, s."""
 PNG, COLORS = "image/png", 128
 """Pictures, and how many colours are kept of one."""
-PATH = re.compile(r"(?<![\w.:/<])/(?:home|root|tmp|work|Users|opt|usr|var)/[^\s\"',)]*")
+TOPS = "|".join((*("home", "root", "tmp", "Users", "opt", "usr", "var"), ROOT.parts[1]))
+"""Where machines have files; the last is where this checkout is."""
+PATH = re.compile(rf"(?<![\w.:/<])/(?:{TOPS})/[^\s\"',)]*")
 """The path of a file on somebody's machine."""
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import nbformat
 import pytest
 
-from tests.keep_outputs import FOLDER, execute, places, texts
+from tests.keep_outputs import FOLDER, ROOT, execute, places, texts
 
 NOTEBOOKS = sorted(FOLDER.glob("*.ipynb"))
 SAYS = {
@@ -35,7 +35,7 @@ def test_outputs_are_kept_without_a_place(path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["/home/me/footfall/runs", "saved to '/tmp/x1/run'", "File /work/a.py, 3"]
+    "text", ["/home/me/footfall/runs", "saved to '/tmp/x1/run'", f"File {ROOT}/a.py, 3"]
 )
 def test_a_path_is_found(text: str) -> None:
     """But not a fraction, a unit, or an address on the web."""
